@@ -1,0 +1,168 @@
+//! Convex polygons: footprints of cars, obstacles and their swept copies.
+
+use super::{Pose, Vec2, cross};
+use serde::{Deserialize, Serialize};
+
+/// A convex polygon, vertices counter-clockwise, at least three.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct ConvexPolygon {
+    vertices: Vec<Vec2>,
+}
+
+impl ConvexPolygon {
+    /// The convex hull of `points`, or `None` when they span no area (or are not finite).
+    ///
+    /// Andrew's monotone chain; collinear points are dropped.
+    pub fn hull(points: &[Vec2]) -> Option<Self> {
+        if points.iter().any(|p| !(p.x.is_finite() && p.y.is_finite())) {
+            return None;
+        }
+        let mut sorted = points.to_vec();
+        sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+        sorted.dedup();
+        let mut vertices = half_hull(sorted.iter().copied());
+        vertices.extend(half_hull(sorted.iter().rev().copied()));
+        let polygon = Self { vertices };
+        (polygon.vertices.len() >= 3 && polygon.area() > 1e-9).then_some(polygon)
+    }
+
+    /// A rectangle around `pose`: `front` metres ahead of it, `back` behind, `half_width` to each side.
+    pub fn rectangle(pose: Pose, front: f64, back: f64, half_width: f64) -> Self {
+        let forward = pose.forward();
+        let left = Vec2::new(-forward.y, forward.x) * half_width;
+        let (nose, tail) = (
+            pose.position() + forward * front,
+            pose.position() - forward * back,
+        );
+        Self {
+            vertices: vec![tail - left, nose - left, nose + left, tail + left],
+        }
+    }
+
+    /// The vertices, counter-clockwise.
+    pub fn vertices(&self) -> &[Vec2] {
+        &self.vertices
+    }
+
+    /// Enclosed area, m².
+    pub fn area(&self) -> f64 {
+        0.5 * self.edges().map(|(a, b)| cross(a, b)).sum::<f64>()
+    }
+
+    /// Edges as (from, to) pairs, counter-clockwise.
+    pub fn edges(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
+        let next = self.vertices.iter().cycle().skip(1);
+        self.vertices.iter().copied().zip(next.copied())
+    }
+
+    /// Whether `point` lies inside or on the edge.
+    pub fn contains(&self, point: Vec2) -> bool {
+        self.edges().all(|(a, b)| cross(b - a, point - a) >= 0.0)
+    }
+
+    /// Distance from `point` to this polygon, 0 inside.
+    pub fn distance_to_point(&self, point: Vec2) -> f64 {
+        if self.contains(point) {
+            return 0.0;
+        }
+        self.edges()
+            .map(|(a, b)| distance_to_segment(point, a, b))
+            .fold(f64::MAX, f64::min)
+    }
+
+    /// This polygon, given in the frame of `pose`, in world coordinates.
+    #[must_use]
+    pub fn at(&self, pose: Pose) -> Self {
+        Self {
+            vertices: self.vertices.iter().map(|v| pose.to_world(*v)).collect(),
+        }
+    }
+
+    /// Whether the interiors meet (separating-axis theorem). Touching polygons do not overlap.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        !separates(self, other) && !separates(other, self)
+    }
+
+    /// Shortest distance to `other`, 0 when they overlap.
+    pub fn distance(&self, other: &Self) -> f64 {
+        if self.overlaps(other) {
+            return 0.0;
+        }
+        let one_way = |from: &Self, to: &Self| {
+            from.vertices
+                .iter()
+                .flat_map(|p| to.edges().map(move |(a, b)| distance_to_segment(*p, a, b)))
+                .fold(f64::MAX, f64::min)
+        };
+        one_way(self, other).min(one_way(other, self))
+    }
+}
+
+/// Distance from `point` to the segment `a`–`b`.
+fn distance_to_segment(point: Vec2, a: Vec2, b: Vec2) -> f64 {
+    let along = b - a;
+    let length_squared = along.norm_squared();
+    let t = if length_squared > 0.0 {
+        ((point - a).dot(&along) / length_squared).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    (point - a - along * t).norm()
+}
+
+/// Whether some edge of `a` has all of `b` on its outer side.
+fn separates(a: &ConvexPolygon, b: &ConvexPolygon) -> bool {
+    a.edges()
+        .any(|(p, q)| b.vertices.iter().all(|v| cross(q - p, v - p) <= 0.0))
+}
+
+/// One chain of the hull over points in sorted order, without its last point.
+fn half_hull(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
+    let mut chain: Vec<Vec2> = Vec::new();
+    for point in points {
+        while let [.., a, b] = chain[..] {
+            if cross(b - a, point - b) > 0.0 {
+                break;
+            }
+            chain.pop();
+        }
+        chain.push(point);
+    }
+    chain.pop();
+    chain
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(x: f64, y: f64) -> ConvexPolygon {
+        ConvexPolygon::rectangle(Pose::new(x, y, 0.0), 0.5, 0.5, 0.5)
+    }
+
+    #[test]
+    fn touching_is_not_overlapping_and_the_distance_is_exact() {
+        assert!(!square(0.0, 0.0).overlaps(&square(1.0, 0.0)));
+        assert!(square(0.0, 0.0).overlaps(&square(0.999, 0.999)));
+        assert!((square(0.0, 0.0).distance(&square(4.0, 5.0)) - 5.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_thin_pole_between_the_corners_overlaps() {
+        let car = ConvexPolygon::rectangle(Pose::new(0.0, 0.0, 0.3), 3.89, 1.043, 1.055);
+        let pole = ConvexPolygon::rectangle(Pose::new(1.5, 0.4, 0.0), 0.1, 0.1, 0.1);
+        assert!(car.overlaps(&pole) && pole.overlaps(&car));
+    }
+
+    #[test]
+    fn the_hull_of_a_grid_is_its_border() {
+        let points: Vec<Vec2> = (0..25)
+            .map(|k| Vec2::new(f64::from(k % 5), f64::from(k / 5)))
+            .collect();
+        let hull = ConvexPolygon::hull(&points).unwrap();
+        assert_eq!(hull.vertices().len(), 4);
+        assert!((hull.area() - 16.0).abs() < 1e-12);
+        assert!(ConvexPolygon::hull(&points[..5]).is_none(), "a line has no area");
+    }
+}

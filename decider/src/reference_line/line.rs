@@ -1,0 +1,308 @@
+//! A reference line along the centre lines of a sequence of lanes.
+
+use super::query::{LineQuery, SlPoint};
+use crate::geometry::{Vec2, angle, cross};
+use crate::road::{BoundaryType, LaneId, LanePoint, Neighbour, RoadMap, Side};
+use serde::{Deserialize, Serialize};
+
+/// Largest gap between the end of a lane and the start of its successor, m. Real maps join within
+/// centimetres; half a metre is what the format notes ask importers to survive.
+const JOIN_TOLERANCE: f64 = 0.5;
+
+/// Samples closer than this are one, m.
+const SAME_POINT: f64 = 1e-3;
+
+/// How far from the line a lane may be for its heading to count, m.
+const LANE_HEADING_RADIUS: f64 = 5.0;
+
+/// Position, heading and curvature of a line at one station.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LinePoint {
+    /// World position, m.
+    pub x: f64,
+    /// World position, m.
+    pub y: f64,
+    /// Heading, rad.
+    pub theta: f64,
+    /// Curvature, 1/m, left turns positive.
+    pub kappa: f64,
+}
+
+/// A cross-section of the road around the line.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LineSample {
+    /// Station along the line, m.
+    pub s: f64,
+    /// The line itself.
+    pub point: LinePoint,
+    /// The lane it follows.
+    pub lane: LaneId,
+    /// Lateral position of the line in the lane's frame, m, left positive.
+    pub offset: f64,
+    /// To the (left, right) lane edges, m.
+    pub lane_width: (f64, f64),
+    /// To the (left, right) edges of the road surface, m.
+    pub road_width: (f64, f64),
+    /// Lines on the (left, right) lane edges.
+    pub marks: (BoundaryType, BoundaryType),
+    /// Widths of the adjacent lanes, indexed by [`Neighbour::index`].
+    pub neighbours: [Option<f64>; 4],
+    /// Whether it lies in a junction.
+    pub in_junction: bool,
+    /// Speed limit, m/s; `None` where the map names none.
+    pub speed_limit: Option<f64>,
+}
+
+/// Why no line can be made along some lanes.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LineError {
+    /// No lanes were given.
+    #[error("a reference line needs at least one lane")]
+    Empty,
+    /// Two lanes that do not meet.
+    #[error("lane `{from}` ends {gap:.2} m away from the start of lane `{to}`")]
+    Gap {
+        /// The lane that ends.
+        from: String,
+        /// The lane that should follow.
+        to: String,
+        /// Distance between them, m.
+        gap: f64,
+    },
+}
+
+/// A smooth curve with everything a decider asks of the road beside it. Immutable.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ReferenceLine {
+    samples: Vec<LineSample>,
+}
+
+impl ReferenceLine {
+    /// The line along the centre lines of `lanes`, which follow each other.
+    ///
+    /// # Errors
+    /// [`LineError`] when there is no lane or two of them do not meet.
+    pub fn along(map: &RoadMap, lanes: &[LaneId]) -> Result<Self, LineError> {
+        if lanes.is_empty() {
+            return Err(LineError::Empty);
+        }
+        let mut samples: Vec<LineSample> = Vec::new();
+        for (k, id) in lanes.iter().enumerate() {
+            let lane = map.lane(*id);
+            if let (Some(last), Some(first)) = (samples.last(), lane.points.first()) {
+                let gap = Vec2::new(first.x - last.point.x, first.y - last.point.y).norm();
+                if gap > JOIN_TOLERANCE {
+                    let from = map.lane(lanes[k - 1]).name.clone();
+                    return Err(LineError::Gap {
+                        from,
+                        to: lane.name.clone(),
+                        gap,
+                    });
+                }
+            }
+            for point in &lane.points {
+                append(&mut samples, sample(map, *id, point));
+            }
+        }
+        Ok(Self { samples })
+    }
+
+    /// Its cross-sections, by ascending station.
+    pub fn samples(&self) -> &[LineSample] {
+        &self.samples
+    }
+
+    /// The last cross-section at or before `s` and the fraction of the way to the next one.
+    fn locate(&self, s: f64) -> (usize, f64) {
+        let above = self
+            .samples
+            .partition_point(|p| p.s <= s)
+            .clamp(1, self.samples.len() - 1);
+        let (a, b) = (self.samples[above - 1].s, self.samples[above].s);
+        (above - 1, ((s - a) / (b - a)).clamp(0.0, 1.0))
+    }
+
+    /// The cross-section that rules at `s`.
+    pub fn sample_at(&self, s: f64) -> &LineSample {
+        let (k, t) = self.locate(s);
+        &self.samples[if t >= 1.0 { k + 1 } else { k }]
+    }
+
+    fn inside(&self, s: f64) -> bool {
+        s >= 0.0 && s <= self.length()
+    }
+
+    fn mix_widths(&self, s: f64, widths: impl Fn(&LineSample) -> (f64, f64)) -> Option<(f64, f64)> {
+        if !self.inside(s) {
+            return None;
+        }
+        let (k, t) = self.locate(s);
+        let (a, b) = (widths(&self.samples[k]), widths(&self.samples[k + 1]));
+        Some((a.0 + (b.0 - a.0) * t, a.1 + (b.1 - a.1) * t))
+    }
+
+    /// Index of the chord nearest to `point`.
+    fn nearest_chord(&self, point: Vec2) -> usize {
+        let mut best = (f64::MAX, 0);
+        for (k, pair) in self.samples.windows(2).enumerate() {
+            let distance = chord_distance_squared(&pair[0].point, &pair[1].point, point);
+            if distance < best.0 {
+                best = (distance, k);
+            }
+        }
+        best.1
+    }
+
+    /// The curve between samples `k` and `k + 1` at fraction `t`: a cubic with the samples' tangents.
+    fn interpolate(&self, k: usize, t: f64) -> LinePoint {
+        let (a, b) = (&self.samples[k], &self.samples[k + 1]);
+        let length = b.s - a.s;
+        let (h00, h10) = ((1.0 + 2.0 * t) * (1.0 - t) * (1.0 - t), t * (1.0 - t) * (1.0 - t));
+        let (h01, h11) = (t * t * (3.0 - 2.0 * t), t * t * (t - 1.0));
+        let (sin_a, cos_a) = angle::sin_cos(a.point.theta);
+        let (sin_b, cos_b) = angle::sin_cos(b.point.theta);
+        let turn = angle::difference(b.point.theta, a.point.theta);
+        LinePoint {
+            x: h00 * a.point.x + h01 * b.point.x + length * (h10 * cos_a + h11 * cos_b),
+            y: h00 * a.point.y + h01 * b.point.y + length * (h10 * sin_a + h11 * sin_b),
+            theta: angle::wrap(a.point.theta + turn * t),
+            kappa: a.point.kappa + (b.point.kappa - a.point.kappa) * t,
+        }
+    }
+}
+
+impl LineQuery for ReferenceLine {
+    fn length(&self) -> f64 {
+        self.samples.last().map_or(0.0, |p| p.s)
+    }
+
+    fn lane_width(&self, s: f64) -> Option<(f64, f64)> {
+        self.mix_widths(s, |p| p.lane_width)
+    }
+
+    fn road_width(&self, s: f64) -> Option<(f64, f64)> {
+        self.mix_widths(s, |p| p.road_width)
+    }
+
+    fn offset_to_map(&self, s: f64) -> Option<f64> {
+        let (k, t) = self.locate(s);
+        let (a, b) = (self.samples[k].offset, self.samples[k + 1].offset);
+        Some(a + (b - a) * t)
+    }
+
+    fn boundary_types(&self, s: f64) -> Option<(BoundaryType, BoundaryType)> {
+        Some(self.sample_at(s).marks)
+    }
+
+    fn neighbour_width(&self, neighbour: Neighbour, s: f64) -> Option<f64> {
+        self.sample_at(s).neighbours[neighbour.index()]
+    }
+
+    fn near_junction(&self, s: f64, radius: f64) -> bool {
+        let from = self.samples.partition_point(|p| p.s < s - radius);
+        self.samples[from..]
+            .iter()
+            .take_while(|p| p.s <= s + radius)
+            .any(|p| p.in_junction)
+    }
+
+    fn lane_heading(&self, point: Vec2, theta: f64) -> Option<f64> {
+        let at = self.to_frenet(point);
+        let heading = self.point(at.s).theta;
+        let agrees = angle::difference(heading, theta).abs() <= std::f64::consts::FRAC_PI_2;
+        (at.l.abs() <= LANE_HEADING_RADIUS && agrees).then_some(heading)
+    }
+
+    fn point(&self, s: f64) -> LinePoint {
+        let (k, t) = self.locate(s);
+        self.interpolate(k, t)
+    }
+
+    fn to_frenet(&self, point: Vec2) -> SlPoint {
+        let k = self.nearest_chord(point);
+        let (a, b) = (&self.samples[k], &self.samples[k + 1]);
+        let length = b.s - a.s;
+        let chord = Vec2::new(b.point.x - a.point.x, b.point.y - a.point.y);
+        let from = Vec2::new(point.x - a.point.x, point.y - a.point.y);
+        let mut t = from.dot(&chord) / chord.norm_squared();
+        if (k == 0 && t < 0.0) || (k + 2 == self.samples.len() && t > 1.0) {
+            return beyond_the_end(if t < 0.0 { a } else { b }, point);
+        }
+        // Newton on (point - curve) · tangent = 0: the chord's foot is within a millimetre already.
+        for _ in 0..3 {
+            let at = self.interpolate(k, t.clamp(0.0, 1.0));
+            let (sin, cos) = angle::sin_cos(at.theta);
+            let d = Vec2::new(point.x - at.x, point.y - at.y);
+            let stretch = 1.0 - at.kappa * (cos * d.y - sin * d.x);
+            t += (cos * d.x + sin * d.y) / (length * stretch.max(0.1));
+        }
+        let t = t.clamp(0.0, 1.0);
+        let at = self.interpolate(k, t);
+        let (sin, cos) = angle::sin_cos(at.theta);
+        let d = Vec2::new(point.x - at.x, point.y - at.y);
+        SlPoint {
+            s: a.s + t * length,
+            l: cross(Vec2::new(cos, sin), d),
+        }
+    }
+}
+
+/// Frenet coordinates beyond an end, where the tangent goes on straight.
+fn beyond_the_end(end: &LineSample, point: Vec2) -> SlPoint {
+    let (sin, cos) = angle::sin_cos(end.point.theta);
+    let d = Vec2::new(point.x - end.point.x, point.y - end.point.y);
+    SlPoint {
+        s: end.s + cos * d.x + sin * d.y,
+        l: cos * d.y - sin * d.x,
+    }
+}
+
+fn chord_distance_squared(a: &LinePoint, b: &LinePoint, point: Vec2) -> f64 {
+    let chord = Vec2::new(b.x - a.x, b.y - a.y);
+    let from = Vec2::new(point.x - a.x, point.y - a.y);
+    let t = (from.dot(&chord) / chord.norm_squared()).clamp(0.0, 1.0);
+    (from - chord * t).norm_squared()
+}
+
+/// Adds a cross-section behind the last one, at the station that its distance gives.
+fn append(samples: &mut Vec<LineSample>, mut next: LineSample) {
+    if let Some(last) = samples.last() {
+        let step = Vec2::new(next.point.x - last.point.x, next.point.y - last.point.y).norm();
+        if step < SAME_POINT {
+            return;
+        }
+        // Length of the arc over this chord, so that stations do not shrink in bends.
+        let turn = angle::difference(next.point.theta, last.point.theta);
+        next.s = last.s + step * (1.0 + turn * turn / 24.0);
+    }
+    samples.push(next);
+}
+
+fn sample(map: &RoadMap, id: LaneId, at: &LanePoint) -> LineSample {
+    let lane = map.lane(id);
+    let width_of = |kind: Neighbour| {
+        let other = map.lane(map.neighbour(id, kind)?);
+        // Neighbours of one road section share their stations; oncoming ones count them backwards.
+        let s = at.s / lane.length() * other.length();
+        let there = other.at(if kind.reverse { other.length() - s } else { s });
+        Some(there.left + there.right)
+    };
+    LineSample {
+        s: 0.0,
+        point: LinePoint {
+            x: at.x,
+            y: at.y,
+            theta: at.theta,
+            kappa: at.kappa,
+        },
+        lane: id,
+        offset: 0.0,
+        lane_width: (at.left, at.right),
+        road_width: (at.road_left, at.road_right),
+        marks: (lane.mark(Side::Left, at.s), lane.mark(Side::Right, at.s)),
+        neighbours: Neighbour::ALL.map(width_of),
+        in_junction: lane.junction.is_some(),
+        speed_limit: at.speed_limit.is_finite().then_some(at.speed_limit),
+    }
+}

@@ -1,0 +1,10 @@
+//! The reference line: the curve that a tick plans along, with what it knows of the road beside it.
+//!
+//! Stations `s` run from the line's first point; `l` is positive to the left. A line is self-contained:
+//! whoever has one needs no map. Semantics follow the original's `ReferenceLine` and `Path`.
+
+mod line;
+mod query;
+
+pub use line::{LineError, LinePoint, LineSample, ReferenceLine};
+pub use query::{LineQuery, SlPoint};

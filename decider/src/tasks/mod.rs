@@ -1,0 +1,3 @@
+//! The lane-follow tasks, one file or folder each.
+
+pub mod path_bounds;

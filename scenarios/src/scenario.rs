@@ -1,0 +1,185 @@
+//! One concrete scenario: every number drawn, every name resolved, ready to run.
+
+use corridor_decider::frame::{Command, ObstacleId, ObstacleKind};
+use corridor_decider::geometry::{ConvexPolygon, Pose, Vec2};
+use corridor_decider::reference_line::ReferenceLine;
+use corridor_decider::road::{LaneId, RoadMap};
+use corridor_decider::vehicle::VehicleParams;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// A situation to drive: where, who, what for, and how it should end.
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    /// Name of the family.
+    pub name: String,
+    /// One sentence for people.
+    pub description: String,
+    /// The seed that drew the numbers.
+    pub seed: u64,
+    /// The road.
+    pub map: Arc<RoadMap>,
+    /// Lanes to follow, each a successor of the one before.
+    pub route: Vec<LaneId>,
+    /// The line along the route.
+    pub line: Arc<ReferenceLine>,
+    /// The line along the lanes to change to, for a lane-change command.
+    pub target_line: Option<Arc<ReferenceLine>>,
+    /// Where and how the ego starts.
+    pub ego: EgoStart,
+    /// What the ego is asked to do.
+    pub command: Command,
+    /// When the command is given, s; before that the ego cruises.
+    pub command_time: f64,
+    /// Speed to drive where nothing limits it, m/s.
+    pub cruise_speed: f64,
+    /// Everything else on the road.
+    pub obstacles: Vec<Obstacle>,
+    /// The ego's body.
+    pub vehicle: VehicleParams,
+    /// How long the run may take, s.
+    pub timeout: f64,
+    /// How it should end.
+    pub expect: Expectation,
+}
+
+/// Where and how the ego starts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EgoStart {
+    /// Pose of the rear axle.
+    pub pose: Pose,
+    /// Speed along the heading, m/s.
+    pub speed: f64,
+}
+
+/// One obstacle of a scenario.
+#[derive(Clone, Debug)]
+pub struct Obstacle {
+    /// Identity in frames and traces: its place in the scenario's list.
+    pub id: ObstacleId,
+    /// Its name in the file.
+    pub name: String,
+    /// Its class.
+    pub kind: ObstacleKind,
+    /// Its outline in its own frame (`x` forward), around its centre.
+    pub shape: ConvexPolygon,
+    /// How it moves.
+    pub behaviour: Behaviour,
+}
+
+/// How an obstacle moves.
+#[derive(Clone, Debug)]
+pub enum Behaviour {
+    /// Stands for the whole run.
+    Parked(Pose),
+    /// Drives along a line at constant speed and lateral offset.
+    ConstantSpeed(AlongLine),
+    /// Passes through poses at given times, on straight legs; stands before the first and after the last.
+    Waypoints(Vec<Waypoint>),
+    /// Follows a line by the Intelligent Driver Model, behind whatever is ahead on it, the ego included.
+    Idm {
+        /// Where it starts.
+        start: AlongLine,
+        /// Its parameters.
+        params: IdmParams,
+        /// A lateral move it makes on the way.
+        lane_change: Option<LateralMove>,
+    },
+    /// Crosses on foot along a straight line.
+    Pedestrian {
+        /// Where it waits.
+        from: Vec2,
+        /// Where it goes.
+        to: Vec2,
+        /// Walking speed, m/s.
+        speed: f64,
+        /// When it starts.
+        trigger: Trigger,
+    },
+}
+
+/// A place and a speed on a line.
+#[derive(Clone, Debug)]
+pub struct AlongLine {
+    /// The line, in the obstacle's driving direction.
+    pub line: Arc<ReferenceLine>,
+    /// Station of its centre at the start, m.
+    pub s: f64,
+    /// Lateral offset of its centre, m, left of its driving direction positive.
+    pub l: f64,
+    /// Speed at the start, m/s.
+    pub speed: f64,
+}
+
+/// A smooth lateral move: a cut-in or a lane change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LateralMove {
+    /// What starts it.
+    pub trigger: Trigger,
+    /// Offset at its end, m.
+    pub to_l: f64,
+    /// How long it takes, s.
+    pub duration: f64,
+}
+
+/// A pose to be in at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Waypoint {
+    /// Seconds from the start of the run.
+    pub t: f64,
+    /// Centre and heading then.
+    pub pose: Pose,
+}
+
+/// What sets an obstacle moving.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Trigger {
+    /// A time since the start of the run, s.
+    Time(f64),
+    /// The ego's reference point comes this near, m.
+    EgoWithin(f64),
+}
+
+/// Parameters of the Intelligent Driver Model (Treiber, Hennecke, Helbing 2000).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct IdmParams {
+    /// Speed on a free road, m/s.
+    pub desired_speed: f64,
+    /// Time gap to the leader, s.
+    pub time_gap: f64,
+    /// Bumper-to-bumper gap at standstill, m.
+    pub min_gap: f64,
+    /// Acceleration on a free road, m/s².
+    pub max_acceleration: f64,
+    /// Comfortable braking, m/s², positive.
+    pub comfortable_braking: f64,
+}
+
+impl Default for IdmParams {
+    fn default() -> Self {
+        Self {
+            desired_speed: 13.9,
+            time_gap: 1.5,
+            min_gap: 2.0,
+            max_acceleration: 1.4,
+            comfortable_braking: 2.0,
+        }
+    }
+}
+
+/// How a run should end.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Expectation {
+    /// Reach the goal: this far along the route from the start, m.
+    Progress(f64),
+    /// Stand at the road's edge.
+    PulledOver,
+    /// Be in the target lane.
+    LaneChanged,
+    /// Refuse the command for lack of a place or a gap, and come to no harm.
+    Refusal,
+    /// Stand behind something that cannot be passed.
+    Standstill,
+}

@@ -1,0 +1,96 @@
+//! How a run ended: every metric with its value, its threshold and its worst moment.
+
+use serde::{Deserialize, Serialize};
+
+/// The judgement on one run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    /// Whether the run ended as expected and passed every gate.
+    pub pass: bool,
+    /// How it ended, in one word.
+    pub ending: Ending,
+    /// One sentence for people: why it passed or failed.
+    pub summary: String,
+    /// Simulated time, s.
+    pub duration: f64,
+    /// Every metric, gates first. Names are those of the field.
+    pub metrics: Vec<Metric>,
+    /// All collisions, first contact each.
+    pub collisions: Vec<Collision>,
+    /// Ticks per outcome of the decider, by name.
+    pub outcomes: Vec<(String, u32)>,
+    /// Hash over all ticks' state hashes, hexadecimal.
+    pub digest: String,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ending {
+    /// The goal was reached.
+    GoalReached,
+    /// The ego stands at the road's edge.
+    PulledOver,
+    /// The ego is in the target lane.
+    LaneChanged,
+    /// The command was refused, as it had to be.
+    Refused,
+    /// The ego stands behind something that cannot be passed, as it had to.
+    StoodStill,
+    /// Two bodies overlapped.
+    Collision,
+    /// The time ran out before the expected end.
+    Timeout,
+    /// The decider failed: a panic, a number that is none, an unordered bound.
+    DeciderFailed,
+}
+
+/// One measured quantity.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Metric {
+    /// Its name.
+    pub name: String,
+    /// Its value; absent where the run gave no occasion to measure it.
+    pub value: Option<f64>,
+    /// What it is compared with; absent for what is only reported.
+    pub threshold: Option<f64>,
+    /// Whether it is good enough; true for what is only reported.
+    pub pass: bool,
+    /// Whether failing it fails the run.
+    pub gate: bool,
+    /// When it was worst, s.
+    pub worst_t: Option<f64>,
+    /// Name of the obstacle of its worst moment.
+    pub worst_obstacle: Option<String>,
+}
+
+/// The first contact of two bodies.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Collision {
+    /// When, s.
+    pub time: f64,
+    /// With what.
+    pub obstacle: String,
+    /// How.
+    pub class: CollisionClass,
+    /// Whether the ego is to blame.
+    pub at_fault: bool,
+    /// Difference of the speeds at contact, m/s.
+    pub delta_v: f64,
+}
+
+/// Classes of collisions, as nuPlan draws them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CollisionClass {
+    /// The ego stood.
+    StoppedEgo,
+    /// The other stood.
+    StoppedTrack,
+    /// The ego's front met a moving one.
+    ActiveFront,
+    /// A moving one met the ego's rear.
+    ActiveRear,
+    /// Side by side.
+    ActiveLateral,
+}
