@@ -13,6 +13,11 @@ use std::sync::Arc;
 #[serde(transparent)]
 pub struct ObstacleId(pub u32);
 
+impl ObstacleId {
+    /// Something without an identity: it is kept clear of, but cannot be named as the cause of anything.
+    pub const ANONYMOUS: Self = Self(u32::MAX);
+}
+
 /// The inputs of one planning tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Frame {

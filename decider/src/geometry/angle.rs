@@ -8,7 +8,12 @@ pub fn wrap(theta: f64) -> f64 {
         return theta;
     }
     let turned = theta - 2.0 * PI * (theta / (2.0 * PI)).round();
-    if turned <= -PI { turned + 2.0 * PI } else { turned }
+    // Rounding may leave a last bit outside.
+    if turned <= -PI {
+        (turned + 2.0 * PI).min(PI)
+    } else {
+        turned.min(PI)
+    }
 }
 
 /// The smallest turn from `from` to `to`, in `(-π, π]`.

@@ -3,6 +3,7 @@
 use crate::geometry::Vec2;
 use crate::reference_line::LinePoint;
 use crate::road::{BoundaryType, Neighbour};
+use crate::tasks::path_bounds::{Station, station};
 use serde::{Deserialize, Serialize};
 
 /// A place in the Frenet frame of a reference line, metres.
@@ -49,6 +50,15 @@ pub trait LineQuery {
 
     /// Frenet coordinates of a point. Beyond an end the end tangent goes on: `s < 0` or `s > length`.
     fn to_frenet(&self, point: Vec2) -> SlPoint;
+
+    /// Cross-sections at `from`, `from + step`, … while below `end`; stations add up one by one.
+    fn sample(&self, from: f64, step: f64, end: f64, stations: &mut Vec<Station>) {
+        let mut s = from;
+        while s < end {
+            stations.push(station(self, s));
+            s += step;
+        }
+    }
 
     /// The point at `(s, l)`; `s` is clamped to the line.
     fn to_cartesian(&self, at: SlPoint) -> Vec2 {

@@ -1,5 +1,274 @@
 //! `PATH_BOUNDS_DECIDER`: how far left and right the rear axle may be at each station ahead.
+//!
+//! Rebuilt from the behaviour of Apollo 8.0's task of that name. What is right there is reproduced to the bit;
+//! what is a defect is put right and kept as a switch in [`Quirks`]. All bounds are in the Frenet frame of one
+//! reference line, metres, with half the car's width already taken off.
 
 mod bound;
+mod config;
+mod edges;
+mod gaps;
+mod greedy;
+mod input;
+mod lane_change;
+mod lanes;
+mod obstacles;
+mod pull_over;
+mod road;
+mod search;
+mod stations;
 
 pub use bound::{Borrow, BoundPoint, EdgeCause, Label, LaneType, PathBound};
+pub use config::{PathBoundsConfig, Quirks};
+pub use input::{ChangeLane, EgoFrenet, Input, Memory, ObstacleSl, PullOver, PullOverKind, PullOverPlace};
+pub use pull_over::PullOverRefusal;
+pub use stations::Station;
+pub(crate) use stations::station;
+
+use crate::frame::ObstacleId;
+use crate::reference_line::LineQuery;
+use crate::road::Side;
+use edges::unbounded;
+use lanes::LaneRules;
+use obstacles::{Passage, Widening};
+
+/// Room beside the ego in the fallback bound, m.
+const FALLBACK_EGO_BUFFER: f64 = 0.5;
+
+/// Room beside the ego in regular and lane-change bounds, m.
+const EGO_BUFFER: f64 = 0.1;
+
+/// Stations that the original adds behind a block (`kNumExtraTailBoundPoint`).
+const PADDING: usize = 20;
+
+/// Why a call gives no bounds at all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PathBoundsError {
+    /// The ego is at or beyond the end of the line.
+    #[error("the ego is at or beyond the end of the reference line")]
+    NoStations,
+    /// Not even the fallback leaves room for the car.
+    #[error("the fallback bound is empty")]
+    EmptyFallback,
+    /// The lane-change bound leaves no room for the car.
+    #[error("the lane-change bound is empty")]
+    EmptyLaneChange,
+    /// The ego is outside a bound's first station; the original aborts the process then. Only with the quirk
+    /// `asserts_ego_inside`.
+    #[error("the ego is outside the first station of its `{0}` bound")]
+    EgoOutside(Label),
+}
+
+/// The candidate bounds of one tick.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PathBounds {
+    /// The bounds in the original's order: the fallback first.
+    pub bounds: Vec<PathBound>,
+    /// Per bound, on which side it passes each obstacle.
+    pub passed: Vec<Vec<(ObstacleId, Side)>>,
+    /// Why a wanted pull-over got no bound.
+    pub refusal: Option<PullOverRefusal>,
+}
+
+impl PathBounds {
+    fn push(&mut self, label: Label, made: Made, blocked_by: Option<ObstacleId>) {
+        self.bounds.push(PathBound {
+            label,
+            delta_s: stations::RESOLUTION,
+            points: made.points,
+            blocked_by,
+            padding: made.padding,
+        });
+        self.passed.push(made.passage.passed);
+    }
+}
+
+/// A bound before it gets its label.
+struct Made {
+    points: Vec<BoundPoint>,
+    padding: usize,
+    passage: Passage,
+}
+
+/// Decides the bounds of one tick along one line (the original's `Process`).
+///
+/// # Errors
+/// [`PathBoundsError`] when there is no bound to give, not even a fallback.
+pub fn decide<L: LineQuery + ?Sized>(
+    line: &L,
+    input: &Input,
+    memory: &mut Memory,
+) -> Result<PathBounds, PathBoundsError> {
+    let mut result = PathBounds::default();
+    if input.config.enable_skip_path_tasks && input.path_reusable {
+        return Ok(result);
+    }
+    let stations = stations::sample(line, input);
+    if stations.is_empty() {
+        return Err(PathBoundsError::NoStations);
+    }
+    let fallback = fallback(&stations, input, memory);
+    if fallback.points.is_empty() {
+        return Err(PathBoundsError::EmptyFallback);
+    }
+    check_ego_inside(&fallback.points, input, Label::Fallback)?;
+    let blocker = fallback.passage.blocked_by;
+    result.push(Label::Fallback, fallback, blocker);
+
+    if memory.pull_over.is_requested {
+        match pull_over::bound(&stations, line, input, memory) {
+            Ok((points, passage)) => {
+                check_ego_inside(&points, input, Label::PullOver)?;
+                let blocker = passage.blocked_by.filter(|_| !input.config.quirks.silent_blocker);
+                result.push(
+                    Label::PullOver,
+                    Made {
+                        points,
+                        padding: 0,
+                        passage,
+                    },
+                    blocker,
+                );
+                return Ok(result);
+            }
+            Err(refusal) => result.refusal = Some(refusal),
+        }
+    }
+    if input.is_change_lane && input.config.enable_smarter_lane_change {
+        lane_change(&mut result, &stations, line, input, memory)?;
+    } else {
+        regular(&mut result, &stations, input, memory)?;
+    }
+    Ok(result)
+}
+
+/// The bound in which some path practically always exists.
+fn fallback(stations: &[Station], input: &Input, memory: &Memory) -> Made {
+    let rules = LaneRules {
+        borrow: Borrow::None,
+        buffer: FALLBACK_EGO_BUFFER,
+        force_extend: true,
+    };
+    let mut points = unbounded(stations);
+    lanes::limit(&mut points, stations, input, rules);
+    let mut passage = Passage::default();
+    if !input.config.quirks.fallback_ignores_obstacles {
+        let config = input.config;
+        let widening = Widening {
+            lateral: config.fallback_obstacle_lat_buffer,
+            hard: config.hard_obstacle_lat_buffer,
+        };
+        let mut narrowed = points.clone();
+        passage = obstacles::limit(&mut narrowed, input, &memory.passed, widening);
+        // An ego that already touches a widened obstacle still needs a bound to brake in.
+        if !narrowed.is_empty() {
+            points = narrowed;
+        }
+    }
+    Made {
+        points,
+        padding: 0,
+        passage,
+    }
+}
+
+/// Into the target lane, once the zone before it allows.
+fn lane_change<L: LineQuery + ?Sized>(
+    result: &mut PathBounds,
+    stations: &[Station],
+    line: &L,
+    input: &Input,
+    memory: &mut Memory,
+) -> Result<(), PathBoundsError> {
+    let rules = LaneRules {
+        borrow: Borrow::None,
+        buffer: EGO_BUFFER,
+        force_extend: true,
+    };
+    let mut points = unbounded(stations);
+    lanes::limit(&mut points, stations, input, rules);
+    lane_change::keep_out(&mut points, stations, line, input, &mut memory.change_lane);
+    let made = around_obstacles(points, input, &memory.passed);
+    if made.points.is_empty() {
+        if input.config.quirks.lane_change_discards_fallback {
+            return Err(PathBoundsError::EmptyLaneChange);
+        }
+        return Ok(());
+    }
+    if input.config.is_extend_lane_bounds_to_include_adc {
+        check_ego_inside(&made.points, input, Label::LaneChange)?;
+    }
+    let blocker = made
+        .passage
+        .blocked_by
+        .filter(|_| !input.config.quirks.silent_blocker);
+    result.push(Label::LaneChange, made, blocker);
+    Ok(())
+}
+
+/// Along the own lane, then with each lane that may be borrowed.
+fn regular(
+    result: &mut PathBounds,
+    stations: &[Station],
+    input: &Input,
+    memory: &Memory,
+) -> Result<(), PathBoundsError> {
+    for borrow in [Borrow::None].iter().chain(input.borrow) {
+        let rules = LaneRules {
+            borrow: *borrow,
+            buffer: EGO_BUFFER,
+            force_extend: false,
+        };
+        let mut points = unbounded(stations);
+        let Some(lane) = lanes::limit(&mut points, stations, input, rules) else {
+            continue;
+        };
+        let made = around_obstacles(points, input, &memory.passed);
+        if made.points.is_empty() {
+            continue;
+        }
+        let label = Label::Regular {
+            borrow: *borrow,
+            lane,
+        };
+        if input.config.is_extend_lane_bounds_to_include_adc {
+            check_ego_inside(&made.points, input, label)?;
+        }
+        let blocker = made.passage.blocked_by;
+        result.push(label, made, blocker);
+    }
+    Ok(())
+}
+
+/// Narrows a lane bound to a way around static obstacles.
+fn around_obstacles(mut points: Vec<BoundPoint>, input: &Input, remembered: &[(ObstacleId, Side)]) -> Made {
+    let pads = input.config.quirks.pad_through_blocker;
+    let open = if pads { points.clone() } else { Vec::new() };
+    let widening = Widening {
+        lateral: input.config.obstacle_lat_buffer,
+        hard: input.config.hard_obstacle_lat_buffer,
+    };
+    let passage = obstacles::limit(&mut points, input, remembered, widening);
+    let mut padding = 0;
+    if passage.blocked_by.is_some() && pads {
+        let tail = open.iter().skip(points.len()).take(PADDING);
+        let before = points.len();
+        points.extend(tail);
+        padding = points.len() - before;
+    }
+    Made {
+        points,
+        padding,
+        passage,
+    }
+}
+
+/// The original's assertion that the ego is inside a bound's first station.
+fn check_ego_inside(points: &[BoundPoint], input: &Input, label: Label) -> Result<(), PathBoundsError> {
+    let inside = |point: &BoundPoint| point.l_min <= input.ego.l && input.ego.l <= point.l_max;
+    if input.config.quirks.asserts_ego_inside && !points.first().is_some_and(inside) {
+        return Err(PathBoundsError::EgoOutside(label));
+    }
+    Ok(())
+}

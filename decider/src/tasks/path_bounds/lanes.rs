@@ -1,0 +1,216 @@
+//! Limits from the lane, a borrowed lane and the ego itself (`GetBoundaryFromLanesAndADC`).
+
+use super::bound::{Borrow, BoundPoint, EdgeCause, LaneType};
+use super::edges::{Limit, tighten};
+use super::input::Input;
+use super::stations::Station;
+use crate::road::{BoundaryType, Neighbour, Side};
+
+/// Width of the ego's lane when the map does not tell, m (the original's `kDefaultLaneWidth`).
+const DEFAULT_LANE_WIDTH: f64 = 5.0;
+
+/// Lane and road edges nearer than this are one edge, m.
+const SAME_EDGE: f64 = 0.05;
+
+/// Deceleration that ends the ego's lateral motion, m/s².
+const LATERAL_DECELERATION: f64 = 1.5;
+
+/// Shortest distance over which the ego's extension is held, and over which it fades, m. At walking pace
+/// travel time alone would leave less than the car needs to turn in.
+const LEAST_EXTENSION: (f64, f64) = (5.0, 10.0);
+
+/// How the lane bound of one candidate is made.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LaneRules {
+    /// Which neighbouring lane belongs to it.
+    pub borrow: Borrow,
+    /// Room beside the ego, m.
+    pub buffer: f64,
+    /// Whether it holds the ego whatever the configuration says.
+    pub force_extend: bool,
+}
+
+/// Narrows `bound` to the lanes; ends it where nothing is left. Tells whose lane is borrowed, or `None` when
+/// there is none to borrow.
+pub(super) fn limit(
+    bound: &mut Vec<BoundPoint>,
+    stations: &[Station],
+    input: &Input,
+    rules: LaneRules,
+) -> Option<LaneType> {
+    let half_width = input.vehicle.half_width();
+    let here = &stations[0];
+    let lane_width = here.lane.map_or(DEFAULT_LANE_WIDTH, |(left, right)| left + right);
+    let mut edges = LaneEdges::new(lane_width / 2.0);
+    let extension = (input.config.is_extend_lane_bounds_to_include_adc || rules.force_extend)
+        .then(|| Extension::new(input, here.offset, rules.buffer));
+    let mut borrowed = None;
+
+    for (i, station) in stations.iter().enumerate() {
+        edges.update(station);
+        let neighbour = borrowed_width(station, input, rules.borrow);
+        if let Some((_, reverse)) = neighbour {
+            borrowed = Some(borrowed.unwrap_or(false) || reverse);
+        }
+        let (left, right) = edges.with_neighbour(rules.borrow, neighbour.map(|(width, _)| width));
+        let (left, right) = match &extension {
+            Some(extension) => extension.widen(left, right, station.s - input.ego.s),
+            None => (left, right),
+        };
+        let coeff = |is_lane| {
+            if is_lane {
+                input.config.adc_buffer_coeff
+            } else {
+                1.0
+            }
+        };
+        let left = Limit {
+            l: (left.l - station.offset) - coeff(edges.left_is_lane) * half_width,
+            ..left
+        };
+        let right = Limit {
+            l: (right.l - station.offset) + coeff(edges.right_is_lane) * half_width,
+            ..right
+        };
+        if !tighten(&mut bound[i], right, left) {
+            bound.truncate(i);
+            break;
+        }
+    }
+    lane_type(rules.borrow, borrowed, input.config.quirks.borrows_phantom_lane)
+}
+
+fn lane_type(borrow: Borrow, borrowed: Option<bool>, phantom: bool) -> Option<LaneType> {
+    match (borrow, borrowed) {
+        (Borrow::None, _) => Some(LaneType::Own),
+        (_, Some(true)) => Some(LaneType::Reverse),
+        (_, Some(false)) => Some(LaneType::Forward),
+        (_, None) => phantom.then_some(LaneType::Forward),
+    }
+}
+
+/// Edges of the own lane in the frame of its centre line; what the map does not tell is carried on.
+struct LaneEdges {
+    left: f64,
+    right: f64,
+    left_is_lane: bool,
+    right_is_lane: bool,
+}
+
+impl LaneEdges {
+    fn new(half_width: f64) -> Self {
+        Self {
+            left: half_width,
+            right: half_width,
+            left_is_lane: true,
+            right_is_lane: true,
+        }
+    }
+
+    fn update(&mut self, station: &Station) {
+        let Some((left, right)) = station.lane else { return };
+        if let Some((road_left, road_right)) = station.road {
+            self.left_is_lane = (road_left - left).abs() > SAME_EDGE;
+            self.right_is_lane = (road_right - right).abs() > SAME_EDGE;
+        }
+        self.left = left + station.offset;
+        self.right = right - station.offset;
+    }
+
+    /// Left and right limit, with a borrowed lane's width on its side.
+    fn with_neighbour(&self, borrow: Borrow, width: Option<f64>) -> (Limit, Limit) {
+        let own = |side: f64| Limit {
+            l: side,
+            cause: EdgeCause::LaneLine,
+        };
+        let beyond = |side: f64| Limit {
+            l: side,
+            cause: EdgeCause::BorrowedLane,
+        };
+        match (borrow, width) {
+            (Borrow::Left, Some(width)) => (beyond(self.left + width), own(-self.right)),
+            (Borrow::Right, Some(width)) => (own(self.left), beyond(-self.right - width)),
+            _ => (own(self.left), own(-self.right)),
+        }
+    }
+}
+
+/// Width of the lane to borrow at a station, and whether its traffic comes towards us.
+fn borrowed_width(station: &Station, input: &Input, borrow: Borrow) -> Option<(f64, bool)> {
+    let side = match borrow {
+        Borrow::None => return None,
+        Borrow::Left => Side::Left,
+        Borrow::Right => Side::Right,
+    };
+    if !may_cross(station, side, input.config.quirks.crosses_double_yellow) {
+        return None;
+    }
+    let width = |reverse| station.neighbours[Neighbour { side, reverse }.index()];
+    width(false)
+        .map(|width| (width, false))
+        .or_else(|| width(true).map(|width| (width, true)))
+}
+
+/// Whether the lane line on a side may be crossed (`CheckLaneBoundaryType`). Unknown lines and kerbs may:
+/// what lies behind them is a question of the neighbour.
+fn may_cross(station: &Station, side: Side, crosses_double_yellow: bool) -> bool {
+    let Some((left, right)) = station.marks else {
+        return false;
+    };
+    match if side == Side::Left { left } else { right } {
+        BoundaryType::SolidYellow | BoundaryType::SolidWhite => false,
+        BoundaryType::DoubleYellow => crosses_double_yellow,
+        _ => true,
+    }
+}
+
+/// The stretch beside the lane centre that holds the ego and where its lateral motion leads it.
+struct Extension {
+    left: f64,
+    right: f64,
+    /// Where it starts and ends to give way to the lane's edges, m ahead; `None`: nowhere.
+    fade: Option<(f64, f64)>,
+}
+
+impl Extension {
+    fn new(input: &Input, offset: f64, buffer: f64) -> Self {
+        let config = input.config;
+        let center = input.ego.l + offset;
+        let l_dot = input.ego.l_dot;
+        let overshoot = l_dot * l_dot / (2.0 * LATERAL_DECELERATION);
+        let overshoot = if l_dot > 0.0 { overshoot } else { -overshoot };
+        let half_width = input.vehicle.half_width();
+        let hold = (input.ego.s_dot * config.ego_extension_hold_time).max(LEAST_EXTENSION.0);
+        let fade = (input.ego.s_dot * config.ego_extension_fade_time).max(LEAST_EXTENSION.1);
+        Self {
+            left: center.max(center + overshoot) + half_width + buffer,
+            right: center.min(center + overshoot) - half_width - buffer,
+            fade: (!config.quirks.endless_ego_extension).then_some((hold, hold + fade)),
+        }
+    }
+
+    fn widen(&self, left: Limit, right: Limit, ahead: f64) -> (Limit, Limit) {
+        let share = match self.fade {
+            None => 1.0,
+            Some((from, to)) => ((to - ahead) / (to - from)).clamp(0.0, 1.0),
+        };
+        let widened = |lane: Limit, ego: f64, outside: bool| {
+            if !outside || share <= 0.0 {
+                return lane;
+            }
+            let l = if share >= 1.0 {
+                ego
+            } else {
+                lane.l + (ego - lane.l) * share
+            };
+            Limit {
+                l,
+                cause: EdgeCause::Ego,
+            }
+        };
+        (
+            widened(left, self.left, self.left > left.l),
+            widened(right, self.right, self.right < right.l),
+        )
+    }
+}
