@@ -6,9 +6,12 @@
 //! In the Frenet frame of a reference line `s` runs forward from its first point and `l` is positive to the
 //! **left**; a bound is `(s, l_min, l_max)`, right then left, for the centre of the rear axle.
 
+pub mod config;
+pub mod context;
 pub mod decision;
 pub mod frame;
 pub mod geometry;
+pub mod planner;
 pub mod reference_line;
 pub mod road;
 pub mod tasks;

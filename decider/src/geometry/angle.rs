@@ -36,7 +36,7 @@ mod tests {
             for theta in [-3.1, -1.0, 0.0, 0.3, 3.1, PI] {
                 let wrapped = wrap(theta + 2.0 * PI * f64::from(k));
                 assert!(
-                    (wrapped - theta).abs() < 1e-12,
+                    difference(wrapped, theta).abs() < 1e-12 && wrapped > -PI && wrapped <= PI,
                     "{theta} + {k} turns gave {wrapped}"
                 );
             }

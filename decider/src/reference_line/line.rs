@@ -3,11 +3,18 @@
 use super::query::{LineQuery, SlPoint};
 use crate::geometry::{Vec2, angle, cross};
 use crate::road::{BoundaryType, LaneId, LanePoint, Neighbour, RoadMap, Side};
+use crate::tasks::path_bounds::{Station, station};
 use serde::{Deserialize, Serialize};
 
 /// Largest gap between the end of a lane and the start of its successor, m. Real maps join within
 /// centimetres; half a metre is what the format notes ask importers to survive.
 const JOIN_TOLERANCE: f64 = 0.5;
+
+/// Newton steps to a foot: three reach rounding, the rest is for steps over a sample.
+const FOOT_STEPS: usize = 5;
+
+/// Least factor `1 − κ l` that is divided by: nearer to the centre of curvature there is no single foot.
+const LEAST_STRETCH: f64 = 0.1;
 
 /// Samples closer than this are one, m.
 const SAME_POINT: f64 = 1e-3;
@@ -74,8 +81,50 @@ pub enum LineError {
 
 /// A smooth curve with everything a decider asks of the road beside it. Immutable.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(from = "Vec<LineSample>", into = "Vec<LineSample>")]
 pub struct ReferenceLine {
     samples: Vec<LineSample>,
+    /// Circles around stretches of [`BLOCK`] chords, to search few of them for a projection.
+    blocks: Vec<Circle>,
+}
+
+/// Chords per block: near the square root of the usual number of chords, where the search is shortest.
+const BLOCK: usize = 32;
+
+/// A circle that holds a stretch of the line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Circle {
+    center: Vec2,
+    radius: f64,
+}
+
+impl From<Vec<LineSample>> for ReferenceLine {
+    fn from(samples: Vec<LineSample>) -> Self {
+        let last = samples.len().saturating_sub(1);
+        let block = |start: usize| enclosing_circle(&samples[start..=(start + BLOCK).min(last)]);
+        let blocks = (0..last).step_by(BLOCK).map(block).collect();
+        Self { samples, blocks }
+    }
+}
+
+impl From<ReferenceLine> for Vec<LineSample> {
+    fn from(line: ReferenceLine) -> Self {
+        line.samples
+    }
+}
+
+fn enclosing_circle(samples: &[LineSample]) -> Circle {
+    let position = |sample: &LineSample| Vec2::new(sample.point.x, sample.point.y);
+    let (low, high) = samples.iter().map(position).fold(
+        (Vec2::repeat(f64::MAX), Vec2::repeat(-f64::MAX)),
+        |(low, high), p| (low.inf(&p), high.sup(&p)),
+    );
+    let center = (low + high) / 2.0;
+    let radius = samples
+        .iter()
+        .map(|s| (position(s) - center).norm())
+        .fold(0.0, f64::max);
+    Circle { center, radius }
 }
 
 impl ReferenceLine {
@@ -105,7 +154,7 @@ impl ReferenceLine {
                 append(&mut samples, sample(map, *id, point));
             }
         }
-        Ok(Self { samples })
+        Ok(Self::from(samples))
     }
 
     /// Its cross-sections, by ascending station.
@@ -129,6 +178,22 @@ impl ReferenceLine {
         &self.samples[if t >= 1.0 { k + 1 } else { k }]
     }
 
+    /// What [`station`] asks for one by one, for `s` between samples `k` and `k + 1`.
+    fn station_between(&self, k: usize, s: f64) -> Station {
+        let (a, b) = (&self.samples[k], &self.samples[k + 1]);
+        let t = ((s - a.s) / (b.s - a.s)).clamp(0.0, 1.0);
+        let mix = |a: (f64, f64), b: (f64, f64)| (a.0 + (b.0 - a.0) * t, a.1 + (b.1 - a.1) * t);
+        let rules = if t >= 1.0 { b } else { a };
+        Station {
+            s,
+            lane: Some(mix(a.lane_width, b.lane_width)),
+            road: Some(mix(a.road_width, b.road_width)),
+            offset: a.offset + (b.offset - a.offset) * t,
+            marks: Some(rules.marks),
+            neighbours: rules.neighbours,
+        }
+    }
+
     fn inside(&self, s: f64) -> bool {
         s >= 0.0 && s <= self.length()
     }
@@ -142,16 +207,48 @@ impl ReferenceLine {
         Some((a.0 + (b.0 - a.0) * t, a.1 + (b.1 - a.1) * t))
     }
 
-    /// Index of the chord nearest to `point`.
+    /// Index of the chord nearest to `point`; the first of equals.
     fn nearest_chord(&self, point: Vec2) -> usize {
         let mut best = (f64::MAX, 0);
-        for (k, pair) in self.samples.windows(2).enumerate() {
-            let distance = chord_distance_squared(&pair[0].point, &pair[1].point, point);
-            if distance < best.0 {
-                best = (distance, k);
+        for (block, circle) in self.blocks.iter().enumerate() {
+            let nearest = (point - circle.center).norm() - circle.radius;
+            if nearest > 0.0 && nearest * nearest > best.0 {
+                continue;
+            }
+            let first = block * BLOCK;
+            let last = (first + BLOCK).min(self.samples.len() - 1);
+            for (k, pair) in (first..last).zip(self.samples[first..=last].windows(2)) {
+                let distance = chord_distance_squared(&pair[0].point, &pair[1].point, point);
+                if distance < best.0 {
+                    best = (distance, k);
+                }
             }
         }
         best.1
+    }
+
+    /// Foot of the perpendicular from `point` near chord `k`: the chord it lies on and the fraction along it,
+    /// beyond `[0, 1]` only at the line's ends. Newton on (point − curve) · tangent = 0; the start is within
+    /// a chord of the foot and three steps reach rounding.
+    fn foot(&self, mut k: usize, point: Vec2) -> (usize, f64) {
+        let last = self.samples.len() - 2;
+        let mut t: f64 = 0.5;
+        for _ in 0..FOOT_STEPS {
+            let length = self.samples[k + 1].s - self.samples[k].s;
+            let at = self.interpolate(k, t.clamp(0.0, 1.0));
+            let (sin, cos) = angle::sin_cos(at.theta);
+            let d = Vec2::new(point.x - at.x, point.y - at.y);
+            let stretch = 1.0 - at.kappa * (cos * d.y - sin * d.x);
+            t = t.clamp(0.0, 1.0) + (cos * d.x + sin * d.y) / (length * stretch.max(LEAST_STRETCH));
+            if t > 1.0 && k < last {
+                (k, t) = (k + 1, 0.0);
+            } else if t < 0.0 && k > 0 {
+                (k, t) = (k - 1, 1.0);
+            } else if !(0.0..=1.0).contains(&t) {
+                break;
+            }
+        }
+        (k, t)
     }
 
     /// The curve between samples `k` and `k + 1` at fraction `t`: a cubic with the samples' tangents.
@@ -219,30 +316,40 @@ impl LineQuery for ReferenceLine {
         self.interpolate(k, t)
     }
 
-    fn to_frenet(&self, point: Vec2) -> SlPoint {
-        let k = self.nearest_chord(point);
-        let (a, b) = (&self.samples[k], &self.samples[k + 1]);
-        let length = b.s - a.s;
-        let chord = Vec2::new(b.point.x - a.point.x, b.point.y - a.point.y);
-        let from = Vec2::new(point.x - a.point.x, point.y - a.point.y);
-        let mut t = from.dot(&chord) / chord.norm_squared();
-        if (k == 0 && t < 0.0) || (k + 2 == self.samples.len() && t > 1.0) {
-            return beyond_the_end(if t < 0.0 { a } else { b }, point);
+    fn sample(&self, from: f64, step: f64, end: f64, stations: &mut Vec<Station>) {
+        if from < 0.0 || end > self.length() {
+            let mut s = from;
+            while s < end {
+                stations.push(station(self, s));
+                s += step;
+            }
+            return;
         }
-        // Newton on (point - curve) · tangent = 0: the chord's foot is within a millimetre already.
-        for _ in 0..3 {
-            let at = self.interpolate(k, t.clamp(0.0, 1.0));
-            let (sin, cos) = angle::sin_cos(at.theta);
-            let d = Vec2::new(point.x - at.x, point.y - at.y);
-            let stretch = 1.0 - at.kappa * (cos * d.y - sin * d.x);
-            t += (cos * d.x + sin * d.y) / (length * stretch.max(0.1));
+        // Walk along instead of searching for every station anew.
+        let (mut k, _) = self.locate(from);
+        let mut s = from;
+        while s < end {
+            while k + 2 < self.samples.len() && self.samples[k + 1].s <= s {
+                k += 1;
+            }
+            stations.push(self.station_between(k, s));
+            s += step;
+        }
+    }
+
+    fn to_frenet(&self, point: Vec2) -> SlPoint {
+        let chord = self.nearest_chord(point);
+        let (k, t) = self.foot(chord, point);
+        if (k == 0 && t < 0.0) || (k + 2 == self.samples.len() && t > 1.0) {
+            return beyond_the_end(&self.samples[if t < 0.0 { 0 } else { k + 1 }], point);
         }
         let t = t.clamp(0.0, 1.0);
         let at = self.interpolate(k, t);
         let (sin, cos) = angle::sin_cos(at.theta);
         let d = Vec2::new(point.x - at.x, point.y - at.y);
+        let (a, b) = (&self.samples[k], &self.samples[k + 1]);
         SlPoint {
-            s: a.s + t * length,
+            s: a.s + t * (b.s - a.s),
             l: cross(Vec2::new(cos, sin), d),
         }
     }
@@ -304,5 +411,66 @@ fn sample(map: &RoadMap, id: LaneId, at: &LanePoint) -> LineSample {
         neighbours: Neighbour::ALL.map(width_of),
         in_junction: lane.junction.is_some(),
         speed_limit: at.speed_limit.is_finite().then_some(at.speed_limit),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reference_line::testing;
+
+    #[test]
+    fn frenet_and_back_returns_to_the_point() {
+        let line = testing::s_curve();
+        for k in 0..400 {
+            let s = 0.37 + f64::from(k) * 0.61;
+            for l in [-3.0, -0.4, 0.0, 1.7, 4.0] {
+                let there = line.to_frenet(line.to_cartesian(SlPoint { s, l }));
+                assert!(
+                    (there.s - s).abs() < 1e-6 && (there.l - l).abs() < 1e-6,
+                    "{s} {l}: {there:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn searching_by_blocks_finds_the_nearest_of_all_chords() {
+        let line = testing::s_curve();
+        for k in 0..500 {
+            let angle = f64::from(k) * 0.7;
+            let (sin, cos) = angle::sin_cos(angle);
+            let point = Vec2::new(60.0 + cos * f64::from(k), sin * f64::from(k) * 0.4);
+            let distance =
+                |k: usize| chord_distance_squared(&line.samples[k].point, &line.samples[k + 1].point, point);
+            let nearest = (0..line.samples.len() - 1).map(distance).fold(f64::MAX, f64::min);
+            assert!(distance(line.nearest_chord(point)) <= nearest);
+        }
+    }
+
+    #[test]
+    fn walking_and_asking_one_by_one_agree() {
+        let line = testing::s_curve();
+        let mut walked = Vec::new();
+        line.sample(3.3, 0.5, 120.0, &mut walked);
+        assert_eq!(walked.len(), 234);
+        for there in walked {
+            assert_eq!(there, station(&line, there.s));
+        }
+    }
+
+    #[test]
+    fn tangents_go_on_beyond_both_ends() {
+        let line = testing::s_curve();
+        let before = line.to_frenet(Vec2::new(-5.0, 2.0));
+        assert!((before.s + 5.0).abs() < 1e-12 && (before.l - 2.0).abs() < 1e-12);
+        assert!(line.lane_width(-0.1).is_none() && line.lane_width(line.length() + 0.1).is_none());
+    }
+
+    #[test]
+    fn a_line_survives_a_file() {
+        let line = testing::s_curve();
+        let samples: Vec<LineSample> = line.clone().into();
+        assert_eq!(ReferenceLine::from(samples), line);
     }
 }

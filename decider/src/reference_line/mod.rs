@@ -5,6 +5,8 @@
 
 mod line;
 mod query;
+#[cfg(test)]
+pub(crate) mod testing;
 
 pub use line::{LineError, LinePoint, LineSample, ReferenceLine};
 pub use query::{LineQuery, SlPoint};

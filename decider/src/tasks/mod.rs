@@ -1,3 +1,9 @@
 //! The lane-follow tasks, one file or folder each.
 
+pub mod lane_borrow;
+pub mod lane_change;
+pub mod path;
 pub mod path_bounds;
+pub mod scene;
+pub mod speed;
+pub mod start_point;

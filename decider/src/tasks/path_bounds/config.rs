@@ -5,6 +5,10 @@ use serde::{Deserialize, Serialize};
 /// Task configuration and planning flags that path bounds read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "the original's flags, under its names"
+)]
 pub struct PathBoundsConfig {
     /// Nearest destination to pull over at, ahead of the front bumper, m.
     pub pull_over_destination_to_adc_buffer: f64,

@@ -68,10 +68,6 @@ impl EgoFrenet {
 
 /// The box around an obstacle in the Frenet frame of the line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(
-    clippy::struct_excessive_bools,
-    reason = "each is an independent property of the obstacle"
-)]
 pub struct ObstacleSl {
     /// Which obstacle.
     pub id: ObstacleId,

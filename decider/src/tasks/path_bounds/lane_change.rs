@@ -20,13 +20,12 @@ pub(super) fn keep_out<L: LineQuery + ?Sized>(
         state.start = None;
         return;
     }
-    let start_s = match state.start {
-        Some(start) => line.to_frenet(start).s,
-        None => {
-            let s = input.ego.s + input.config.lane_change_prepare_length;
-            state.start = Some(line.to_cartesian(SlPoint { s, l: 0.0 }));
-            s
-        }
+    let start_s = if let Some(start) = state.start {
+        line.to_frenet(start).s
+    } else {
+        let s = input.ego.s + input.config.lane_change_prepare_length;
+        state.start = Some(line.to_cartesian(SlPoint { s, l: 0.0 }));
+        s
     };
     if start_s < input.ego.s {
         return;

@@ -1,0 +1,31 @@
+//! What the decider remembers from tick to tick.
+//!
+//! A decision is a pure function of the frame and this; replaying the frames of a trace from the first one
+//! rebuilds it.
+
+use crate::decision::TrajectoryPoint;
+use crate::tasks::lane_borrow::BorrowState;
+use crate::tasks::lane_change::LaneChangeState;
+use crate::tasks::path_bounds::Memory;
+
+/// The decider's memory. Starts empty.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Context {
+    /// Of the path bounds.
+    pub bounds: Memory,
+    /// Of the lane-borrow decider.
+    pub borrow: BorrowState,
+    /// Of the lane-change decider.
+    pub lane_change: LaneChangeState,
+    /// The trajectory of the last tick and the time it starts at.
+    pub last: Option<LastTrajectory>,
+}
+
+/// A trajectory that is being driven.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LastTrajectory {
+    /// Time of the frame that it answers, s.
+    pub time: f64,
+    /// Its points.
+    pub points: Vec<TrajectoryPoint>,
+}

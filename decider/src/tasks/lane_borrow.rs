@@ -1,0 +1,110 @@
+//! `PATH_LANE_BORROW_DECIDER`: when a neighbouring lane may be used to pass something that blocks our own.
+//!
+//! Slow enough, blocked for long enough, and the line may be crossed; then until the own lane has been usable
+//! for a while. Whether traffic leaves time for it is asked when a path is chosen.
+
+use super::path_bounds::Borrow;
+use super::scene::Scene;
+use crate::reference_line::LineQuery;
+use crate::road::BoundaryType;
+use serde::{Deserialize, Serialize};
+
+/// Settings of the lane-borrow decider.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LaneBorrowConfig {
+    /// Whether lanes are borrowed at all.
+    pub allow_lane_borrowing: bool,
+    /// Not faster than this, m/s.
+    pub lane_borrow_max_speed: f64,
+    /// How many ticks the own lane must have been blocked.
+    pub long_term_blocking_obstacle_cycle_threshold: u32,
+    /// How many ticks the own lane must have been usable to give the borrowed one back.
+    pub usable_self_lane_cycle_threshold: u32,
+}
+
+impl Default for LaneBorrowConfig {
+    fn default() -> Self {
+        Self {
+            allow_lane_borrowing: true,
+            lane_borrow_max_speed: 5.0,
+            long_term_blocking_obstacle_cycle_threshold: 3,
+            usable_self_lane_cycle_threshold: 6,
+        }
+    }
+}
+
+/// What the decider remembers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BorrowState {
+    /// Ticks in a row in which the own lane was blocked.
+    pub blocked_cycles: u32,
+    /// Ticks in a row in which the own lane would have done.
+    pub usable_cycles: u32,
+    /// Sides that may be borrowed now, in order of preference; empty: none.
+    pub sides: Vec<Borrow>,
+}
+
+/// How far ahead the lane line is read, m.
+const LOOK_AHEAD: f64 = 100.0;
+
+/// How often it is read, m.
+const STEP: f64 = 2.0;
+
+/// Sides that may be borrowed in this tick.
+pub fn decide(scene: &Scene, state: &mut BorrowState) -> Vec<Borrow> {
+    let config = &scene.config.lane_borrow;
+    let leaves = state.usable_cycles >= config.usable_self_lane_cycle_threshold;
+    if !config.allow_lane_borrowing || scene.is_change_lane || leaves {
+        state.sides.clear();
+    }
+    let waited = state.blocked_cycles >= config.long_term_blocking_obstacle_cycle_threshold;
+    let may_begin = config.allow_lane_borrowing
+        && !scene.is_change_lane
+        && scene.frame.lines.len() == 1
+        && waited
+        && scene.start.v < config.lane_borrow_max_speed;
+    if state.sides.is_empty() && may_begin {
+        state.sides = crossable_sides(scene);
+        state.usable_cycles = 0;
+    }
+    state.sides.clone()
+}
+
+/// Takes note of whether the own lane alone would have done.
+pub fn observe(state: &mut BorrowState, own_lane_is_blocked: bool) {
+    if own_lane_is_blocked {
+        state.blocked_cycles += 1;
+        state.usable_cycles = 0;
+    } else {
+        state.blocked_cycles = 0;
+        state.usable_cycles += 1;
+    }
+}
+
+/// Sides whose line may be crossed all the way ahead, the left first. Double yellow forbids either side.
+fn crossable_sides(scene: &Scene) -> Vec<Borrow> {
+    let solid = |kind: BoundaryType| {
+        matches!(
+            kind,
+            BoundaryType::SolidYellow | BoundaryType::SolidWhite | BoundaryType::DoubleYellow
+        )
+    };
+    let end = (scene.ego_end_s() + LOOK_AHEAD).min(scene.line.length());
+    let (mut left, mut right) = (true, true);
+    let mut s = scene.ego_end_s();
+    while s < end {
+        let Some(marks) = scene.line.boundary_types(s) else {
+            return Vec::new();
+        };
+        left &= !solid(marks.0);
+        right &= !solid(marks.1);
+        s += STEP;
+    }
+    let sides = [(left, Borrow::Left), (right, Borrow::Right)];
+    sides
+        .into_iter()
+        .filter(|(may, _)| *may)
+        .map(|(_, side)| side)
+        .collect()
+}

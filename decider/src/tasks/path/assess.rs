@@ -1,0 +1,149 @@
+//! From an offset profile to a path: inside its bound, not bent too much, and clear of every standing body.
+//!
+//! The whole footprint is checked at every point, a metre apart: a car is five metres long, so nothing slips
+//! between two of them.
+
+use super::Path;
+use super::profile::{Corridor, Profile};
+use super::table::{LineTable, Row};
+use crate::decision::{PathPoint, Rejection};
+use crate::frame::ObstacleId;
+use crate::geometry::{ConvexPolygon, Pose, Vec2, angle};
+use crate::tasks::scene::{Body, Scene};
+
+/// Length at the end of a path that the original leaves unchecked, m.
+const UNCHECKED_TAIL: f64 = 10.5;
+
+/// Curvature above the limit that a path may start with, 1/m: what the car does now it does.
+const START_EXCESS: f64 = 0.02;
+
+/// Over which distance that excess has to go, m.
+const START_LENGTH: f64 = 5.0;
+
+pub(super) fn assess(
+    scene: &Scene,
+    table: &LineTable,
+    corridor: &Corridor,
+    profile: &Profile,
+) -> Result<Path, Rejection> {
+    let inside = |(k, l): (usize, &[f64; 4])| {
+        let ((lo, hi), tolerance) = (corridor.limits[k], corridor.tolerance[k]);
+        l[0] >= lo - tolerance && l[0] <= hi + tolerance
+    };
+    if !profile.l.iter().enumerate().all(inside) {
+        return Err(Rejection::LeavesBound);
+    }
+    let mut points = points(table, profile);
+    let limit = scene.vehicle.max_kappa() * scene.config.path.curvature_share;
+    let bends = |p: &PathPoint| {
+        let excess = START_EXCESS * (1.0 - p.distance / START_LENGTH).max(0.0);
+        p.kappa.abs() > limit + excess || !p.kappa.is_finite()
+    };
+    if points.iter().skip(1).any(bends) {
+        return Err(Rejection::Curvature);
+    }
+    let contact = first_contact(scene, &points);
+    if let Some((k, id)) = contact {
+        points.truncate(k);
+        if points.len() < 2 || points[k - 1].distance < scene.config.path.least_reach {
+            return Err(Rejection::Touches(id));
+        }
+    }
+    Ok(Path {
+        points,
+        blocked_by: contact.map(|(_, id)| id),
+    })
+}
+
+/// The profile in world coordinates (the original's Frenet-to-Cartesian conversion).
+fn points(table: &LineTable, profile: &Profile) -> Vec<PathPoint> {
+    let mut points: Vec<PathPoint> = Vec::with_capacity(profile.l.len());
+    for (row, l) in table.rows.iter().zip(&profile.l) {
+        let (pose, kappa) = to_world(row, *l);
+        let distance = points.last().map_or(0.0, |last: &PathPoint| {
+            last.distance + (pose.position() - last.pose.position()).norm()
+        });
+        points.push(PathPoint {
+            distance,
+            s: row.s,
+            l: l[0],
+            pose,
+            kappa,
+        });
+    }
+    points
+}
+
+fn to_world(row: &Row, [l, dl, ddl, _]: [f64; 4]) -> (Pose, f64) {
+    let stretch = 1.0 - row.kappa * l;
+    let turn = libm::atan2(dl, stretch);
+    let (sin, cos) = angle::sin_cos(turn);
+    let tan = sin / cos;
+    let bend = ddl + (row.dkappa * l + row.kappa * dl) * tan;
+    let kappa = (bend * cos * cos / stretch + row.kappa) * cos / stretch;
+    let left = Vec2::new(-row.forward.y, row.forward.x);
+    let position = row.position + left * l;
+    (
+        Pose::new(position.x, position.y, angle::wrap(row.theta + turn)),
+        kappa,
+    )
+}
+
+/// The first point at which the body would touch a standing one, and which.
+fn first_contact(scene: &Scene, points: &[PathPoint]) -> Option<(usize, ObstacleId)> {
+    if scene.bodies.is_empty() {
+        return None;
+    }
+    let config = &scene.config.path;
+    let vehicle = scene.vehicle;
+    let checked = if config.corner_collision_check {
+        let end = points.last()?.distance - UNCHECKED_TAIL;
+        points.partition_point(|p| p.distance < end)
+    } else {
+        points.len()
+    };
+    let radius = vehicle.front_edge_to_center + vehicle.half_width() + config.clearance;
+    let near: Vec<&Body> = scene
+        .bodies
+        .iter()
+        .filter(|body| is_near(body, points, radius))
+        .collect();
+    points[..checked].iter().enumerate().find_map(|(k, point)| {
+        let mut footprint = None;
+        near.iter().find_map(|body| {
+            let reach = radius + body.radius;
+            if (body.center - point.pose.position()).norm_squared() > reach * reach {
+                return None;
+            }
+            let footprint = footprint.get_or_insert_with(|| {
+                ConvexPolygon::rectangle(
+                    point.pose,
+                    vehicle.front_edge_to_center + config.clearance,
+                    vehicle.back_edge_to_center + config.clearance,
+                    vehicle.half_width() + config.clearance,
+                )
+            });
+            touches(footprint, body, config.corner_collision_check).then_some((k, body.id))
+        })
+    })
+}
+
+fn touches(footprint: &ConvexPolygon, body: &Body, corners_only: bool) -> bool {
+    if corners_only {
+        return footprint
+            .vertices()
+            .iter()
+            .any(|corner| body.outline.contains(*corner));
+    }
+    footprint.overlaps(&body.outline)
+}
+
+/// Whether a body is near the stretch that the path covers at all.
+fn is_near(body: &Body, points: &[PathPoint], radius: f64) -> bool {
+    let (Some(first), Some(last)) = (points.first(), points.last()) else {
+        return false;
+    };
+    let middle = (first.pose.position() + last.pose.position()) / 2.0;
+    let reach = last.distance / 2.0 + radius + body.radius;
+    (body.center - middle).norm_squared() <= reach * reach
+}

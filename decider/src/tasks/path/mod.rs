@@ -1,0 +1,122 @@
+//! A path inside a bound: smoothed along its middle way, or sampled, and checked by the whole footprint.
+//!
+//! The smoothed path minimises offset and its first three derivatives inside the bound; when it is turned down,
+//! a bundle of quintics (the lateral bundle of the original's lattice planner) offers others. A path ends
+//! where the body would touch something: how far it leads is its *reach*.
+
+mod assess;
+mod bundle;
+mod profile;
+mod smooth;
+mod table;
+
+pub use table::LineTable;
+
+use super::path_bounds::PathBound;
+use super::scene::Scene;
+use crate::decision::{PathPoint, Rejection};
+use crate::frame::ObstacleId;
+use profile::{Corridor, Profile};
+use serde::{Deserialize, Serialize};
+
+/// Settings of the path layer.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PathConfig {
+    /// Travel time over which the smoother looks, s: longer is gentler.
+    pub smoothing_time: f64,
+    /// Least length over which the smoother looks, m.
+    pub least_smoothing_length: f64,
+    /// Largest overshoot of a bound, m.
+    pub bound_tolerance: f64,
+    /// Room that the footprint keeps from static obstacles, m.
+    pub clearance: f64,
+    /// Share of the steering's curvature that a path may use.
+    pub curvature_share: f64,
+    /// Shortest path worth driving, m.
+    pub least_reach: f64,
+    /// Defect A3 of the original: only the corners of the footprint are checked, and not on the last 10.5 m.
+    pub corner_collision_check: bool,
+}
+
+impl Default for PathConfig {
+    fn default() -> Self {
+        Self {
+            smoothing_time: 0.6,
+            least_smoothing_length: 4.0,
+            bound_tolerance: 0.03,
+            clearance: 0.1,
+            curvature_share: 0.95,
+            least_reach: 1.0,
+            corner_collision_check: false,
+        }
+    }
+}
+
+/// A drivable path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    /// Its points, a metre apart along the line. At least two.
+    pub points: Vec<PathPoint>,
+    /// What ends it, if something does before the bound's end.
+    pub blocked_by: Option<ObstacleId>,
+}
+
+impl Path {
+    /// Arc length, m.
+    pub fn length(&self) -> f64 {
+        self.points.last().map_or(0.0, |p| p.distance)
+    }
+
+    /// Station of its end, m.
+    pub fn end_s(&self) -> f64 {
+        self.points.last().map_or(0.0, |p| p.s)
+    }
+}
+
+/// The best path inside `bound`, drawn towards `target_l`.
+///
+/// # Errors
+/// [`Rejection`] of the most promising path when none can be driven.
+pub fn plan(scene: &Scene, table: &LineTable, bound: &PathBound, target_l: f64) -> Result<Path, Rejection> {
+    let corridor = Corridor::new(scene, table, bound, target_l).ok_or(Rejection::TooShort)?;
+    let smoothed = smooth::solve(&corridor).and_then(|p| assess::assess(scene, table, &corridor, &p));
+    match smoothed {
+        Ok(path) if path.blocked_by.is_none() => Ok(finish(path, bound)),
+        smoothed => best_of_bundle(scene, table, &corridor, smoothed).map(|path| finish(path, bound)),
+    }
+}
+
+/// The farthest-leading path of the bundle and the smoothed one; among equals the one of least cost.
+fn best_of_bundle(
+    scene: &Scene,
+    table: &LineTable,
+    corridor: &Corridor,
+    smoothed: Result<Path, Rejection>,
+) -> Result<Path, Rejection> {
+    let mut best = smoothed;
+    let mut profiles: Vec<(f64, Profile)> = bundle::sample(corridor)
+        .into_iter()
+        .map(|profile| (profile.cost(corridor), profile))
+        .collect();
+    profiles.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for (_, profile) in profiles {
+        let Ok(path) = assess::assess(scene, table, corridor, &profile) else {
+            continue;
+        };
+        let free = path.blocked_by.is_none();
+        if best.as_ref().map_or(-1.0, Path::end_s) + table::STEP < path.end_s() {
+            best = Ok(path);
+        }
+        if free {
+            break;
+        }
+    }
+    best
+}
+
+/// A path that leads to the end of a blocked bound is blocked by what blocks the bound.
+fn finish(mut path: Path, bound: &PathBound) -> Path {
+    path.blocked_by = path.blocked_by.or(bound.blocked_by);
+    path
+}

@@ -1,0 +1,205 @@
+//! The smoothest offset profile inside a corridor.
+//!
+//! Minimises `Σ (l − l_target)² + λ² l'² + λ⁴ l''² + λ⁶ l'''²` over offsets a metre apart, derivatives by
+//! forward differences, the first three offsets given by the start state. Limits enter as stiff springs at
+//! the stations that press against them; which ones do is found by Newton's method for the semismooth problem
+//! (an active-set iteration). Each step is one banded Cholesky factorisation, linear in the number of stations.
+
+use super::profile::{Corridor, Profile};
+use super::table::STEP;
+use crate::decision::Rejection;
+
+/// Half bandwidth of the normal matrix: a third difference couples four offsets.
+const BAND: usize = 3;
+
+/// Stiffness of a limit relative to the weight of the offset: leaves overshoots of about a millimetre.
+const STIFFNESS: f64 = 1e6;
+
+/// How far inside a limit its spring rests, m, so that the overshoot stays inside.
+const INSET: f64 = 0.01;
+
+/// Newton steps after which the active set counts as cycling. A tenth of that is usual.
+const MAX_STEPS: usize = 30;
+
+/// One row of the lower triangle: the diagonal last.
+type Row = [f64; BAND + 1];
+
+/// Which limit a station presses against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Press {
+    None,
+    Right,
+    Left,
+}
+
+pub(super) fn solve(corridor: &Corridor) -> Result<Profile, Rejection> {
+    let n = corridor.len();
+    let [l0, dl0, ddl0] = corridor.start;
+    let start = [0.0, STEP, 2.0 * STEP].map(|s| l0 + dl0 * s + ddl0 * s * s / 2.0);
+    let mut offsets: Vec<f64> = start.to_vec();
+    let (matrix, rhs) = normal_equations(corridor, start);
+    let mut press = vec![Press::None; n - start.len()];
+    for _ in 0..MAX_STEPS {
+        let (mut stiffened, mut pulled) = (matrix.clone(), rhs.clone());
+        for (k, press) in press.iter().enumerate() {
+            if let Some(edge) = rest(corridor.limits[k + start.len()], *press) {
+                stiffened[k][BAND] += STIFFNESS;
+                pulled[k] += STIFFNESS * edge;
+            }
+        }
+        cholesky_solve(&mut stiffened, &mut pulled);
+        let next: Vec<Press> = pulled
+            .iter()
+            .zip(&corridor.limits[start.len()..])
+            .map(|(l, limits)| pressed(*l, *limits))
+            .collect();
+        if next == press {
+            offsets.extend(pulled);
+            return Ok(Profile::from_offsets(&offsets, corridor.start));
+        }
+        press = next;
+    }
+    Err(Rejection::LeavesBound)
+}
+
+/// Where the spring of a limit rests: a little inside, but in the middle of a gap narrower than that.
+fn rest((l_min, l_max): (f64, f64), press: Press) -> Option<f64> {
+    let inset = INSET.min((l_max - l_min) / 2.0);
+    match press {
+        Press::None => None,
+        Press::Right => Some(l_min + inset),
+        Press::Left => Some(l_max - inset),
+    }
+}
+
+fn pressed(l: f64, limits: (f64, f64)) -> Press {
+    let beyond = |press| rest(limits, press);
+    if beyond(Press::Right).is_some_and(|edge| l < edge) {
+        Press::Right
+    } else if beyond(Press::Left).is_some_and(|edge| l > edge) {
+        Press::Left
+    } else {
+        Press::None
+    }
+}
+
+/// Matrix and right-hand side of the unlimited problem for the offsets after the given ones.
+fn normal_equations(corridor: &Corridor, start: [f64; 3]) -> (Vec<Row>, Vec<f64>) {
+    let n = corridor.len();
+    let square = corridor.smoothing_length * corridor.smoothing_length / (STEP * STEP);
+    let differences: [(&[f64], f64); 3] = [
+        (&[-1.0, 1.0], square),
+        (&[1.0, -2.0, 1.0], square * square),
+        (&[-1.0, 3.0, -3.0, 1.0], square * square * square),
+    ];
+    let free = n - start.len();
+    let mut matrix = vec![[0.0, 0.0, 0.0, 1.0]; free];
+    let mut rhs = vec![corridor.target_l; free];
+    for (stencil, weight) in differences {
+        for first in 0..=n - stencil.len() {
+            for (a, ca) in stencil.iter().enumerate() {
+                let Some(row) = (first + a).checked_sub(start.len()) else {
+                    continue;
+                };
+                for (b, cb) in stencil[..=a].iter().enumerate() {
+                    match (first + b).checked_sub(start.len()) {
+                        Some(column) => matrix[row][BAND + column - row] += weight * ca * cb,
+                        None => rhs[row] -= weight * ca * cb * start[first + b],
+                    }
+                }
+            }
+        }
+    }
+    (matrix, rhs)
+}
+
+/// Solves in place; the matrix is positive definite because every diagonal has the offset's weight.
+fn cholesky_solve(matrix: &mut [Row], rhs: &mut [f64]) {
+    let n = rhs.len();
+    for i in 0..n {
+        for j in i.saturating_sub(BAND)..=i {
+            let mut sum = matrix[i][BAND + j - i];
+            for k in i.saturating_sub(BAND).max(j.saturating_sub(BAND))..j {
+                sum -= matrix[i][BAND + k - i] * matrix[j][BAND + k - j];
+            }
+            matrix[i][BAND + j - i] = if i == j { sum.sqrt() } else { sum / matrix[j][BAND] };
+        }
+    }
+    for i in 0..n {
+        let mut sum = rhs[i];
+        for k in i.saturating_sub(BAND)..i {
+            sum -= matrix[i][BAND + k - i] * rhs[k];
+        }
+        rhs[i] = sum / matrix[i][BAND];
+    }
+    for i in (0..n).rev() {
+        let mut sum = rhs[i];
+        for k in i + 1..(i + 1 + BAND).min(n) {
+            sum -= matrix[k][BAND + i - k] * rhs[k];
+        }
+        rhs[i] = sum / matrix[i][BAND];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{DMatrix, DVector};
+
+    fn corridor(limits: Vec<(f64, f64)>, start: [f64; 3]) -> Corridor {
+        let tolerance = vec![0.03; limits.len()];
+        Corridor {
+            limits,
+            target_l: 0.0,
+            start,
+            smoothing_length: 6.0,
+            tolerance,
+        }
+    }
+
+    #[test]
+    fn the_banded_solve_agrees_with_a_dense_one() {
+        let corridor = corridor(vec![(-2.0, 2.0); 40], [0.7, 0.05, -0.01]);
+        let (matrix, rhs) = normal_equations(&corridor, [0.7, 0.745, 0.78]);
+        let n = rhs.len();
+        let dense = DMatrix::from_fn(n, n, |i, j| {
+            let (i, j) = (i.max(j), i.min(j));
+            if i - j > BAND {
+                0.0
+            } else {
+                matrix[i][BAND + j - i]
+            }
+        });
+        let expected = dense.lu().solve(&DVector::from_vec(rhs.clone())).unwrap();
+        let (mut matrix, mut solved) = (matrix, rhs);
+        cholesky_solve(&mut matrix, &mut solved);
+        for (have, want) in solved.iter().zip(expected.iter()) {
+            assert!((have - want).abs() < 1e-9, "{have} {want}");
+        }
+    }
+
+    #[test]
+    fn a_narrow_gap_is_passed_inside_and_the_way_back_is_smooth() {
+        let mut limits = vec![(-0.7, 3.0); 80];
+        limits[30..45].fill((1.5, 3.0));
+        let corridor = corridor(limits.clone(), [0.0; 3]);
+        let profile = solve(&corridor).unwrap();
+        for ([l, ..], (lo, hi)) in profile.l.iter().zip(&limits) {
+            assert!(*l >= lo - 1e-9 && *l <= hi + 1e-9, "{l} is outside [{lo}, {hi}]");
+        }
+        assert!(profile.l.last().unwrap()[0].abs() < 0.1);
+        assert!(profile.l.iter().all(|l| l[2].abs() < 0.05), "no sharp bends");
+    }
+
+    #[test]
+    fn mirrored_corridors_have_mirrored_paths() {
+        let mut limits = vec![(-2.0, 2.5); 60];
+        limits[20..30].fill((0.4, 2.5));
+        let mirrored = limits.iter().map(|(lo, hi)| (-hi, -lo)).collect();
+        let one = solve(&corridor(limits, [0.3, 0.02, 0.0])).unwrap();
+        let other = solve(&corridor(mirrored, [-0.3, -0.02, 0.0])).unwrap();
+        for (a, b) in one.l.iter().zip(&other.l) {
+            assert!((a[0] + b[0]).abs() < 1e-12);
+        }
+    }
+}

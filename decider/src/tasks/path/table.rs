@@ -1,0 +1,53 @@
+//! The line ahead of the ego at every metre, asked once per tick and shared by all paths.
+
+use crate::geometry::{Vec2, angle};
+use crate::reference_line::{LineQuery, ReferenceLine};
+
+/// Distance between the points of a path, m.
+pub(super) const STEP: f64 = 1.0;
+
+/// How far ahead paths lead, m: the horizon of the path bounds.
+const HORIZON: f64 = 100.0;
+
+/// One point of the line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    pub s: f64,
+    pub position: Vec2,
+    pub forward: Vec2,
+    pub theta: f64,
+    pub kappa: f64,
+    pub dkappa: f64,
+}
+
+/// The line at `s0`, `s0 + 1`, …
+#[derive(Clone, Debug)]
+pub struct LineTable {
+    pub(super) rows: Vec<Row>,
+}
+
+impl LineTable {
+    /// Samples the line from `s0` to the end of the horizon or of the line.
+    pub fn new(line: &ReferenceLine, s0: f64) -> Self {
+        let mut rows: Vec<Row> = Vec::with_capacity(128);
+        let end = (s0 + HORIZON).min(line.length());
+        let mut s = s0;
+        while s <= end {
+            let at = line.point(s);
+            let (sin, cos) = angle::sin_cos(at.theta);
+            rows.push(Row {
+                s,
+                position: Vec2::new(at.x, at.y),
+                forward: Vec2::new(cos, sin),
+                theta: at.theta,
+                kappa: at.kappa,
+                dkappa: 0.0,
+            });
+            s += STEP;
+        }
+        for k in 1..rows.len().saturating_sub(1) {
+            rows[k].dkappa = (rows[k + 1].kappa - rows[k - 1].kappa) / (2.0 * STEP);
+        }
+        Self { rows }
+    }
+}

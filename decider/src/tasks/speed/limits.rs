@@ -1,0 +1,56 @@
+//! The speed that the road ahead allows: limits of the map and lateral acceleration in bends.
+
+use crate::reference_line::LineQuery;
+use crate::tasks::path::Path;
+use crate::tasks::scene::Scene;
+
+/// Curvature below this limits no speed worth driving, 1/m.
+const STRAIGHT: f64 = 1e-4;
+
+/// The fastest speed at each point of a path, reachable with comfortable braking.
+#[derive(Clone, Debug)]
+pub(super) struct Envelope {
+    /// Speed per metre of path.
+    speeds: Vec<f64>,
+    step: f64,
+}
+
+impl Envelope {
+    pub(super) fn new(scene: &Scene, path: &Path) -> Self {
+        let config = &scene.config.speed;
+        let mut speeds: Vec<f64> = path
+            .points
+            .iter()
+            .map(|point| {
+                let bend = (config.lateral_acceleration / point.kappa.abs().max(STRAIGHT)).sqrt();
+                let limit = scene.line.sample_at(point.s).speed_limit.unwrap_or(f64::MAX);
+                bend.min(limit).min(scene.frame.cruise_speed)
+            })
+            .collect();
+        for k in (0..speeds.len() - 1).rev() {
+            let gap = path.points[k + 1].distance - path.points[k].distance;
+            let reachable = (speeds[k + 1] * speeds[k + 1] + 2.0 * config.braking * gap).sqrt();
+            speeds[k] = speeds[k].min(reachable);
+        }
+        let step = (path.length() / (speeds.len() - 1) as f64).max(1e-6);
+        Self { speeds, step }
+    }
+
+    /// The limit at a distance along the path; the last one goes on.
+    pub(super) fn at(&self, distance: f64) -> f64 {
+        let place = (distance / self.step).max(0.0);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "not negative, clamped below"
+        )]
+        let k = (place as usize).min(self.speeds.len() - 1);
+        let next = self.speeds[(k + 1).min(self.speeds.len() - 1)];
+        self.speeds[k] + (next - self.speeds[k]) * (place - k as f64).min(1.0)
+    }
+}
+
+/// Whether a line leaves room to plan on at all.
+pub(super) fn is_within<L: LineQuery + ?Sized>(line: &L, s: f64) -> bool {
+    s >= 0.0 && s <= line.length()
+}

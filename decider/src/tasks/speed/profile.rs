@@ -1,0 +1,300 @@
+//! The speed profile: integrated forward, accelerating as the tightest constraint allows.
+
+use super::limits::Envelope;
+use super::overlap::{Claim, Occupied};
+use super::{Planned, SpeedConfig};
+use crate::decision::{PathPoint, Stop, StopCause, TrajectoryPoint};
+use crate::geometry::{Pose, angle};
+use crate::tasks::path::Path;
+use crate::tasks::scene::Scene;
+
+/// Time between trajectory points, s.
+const STEP: f64 = 0.1;
+
+/// Number of steps: eight seconds.
+const STEPS: u32 = 80;
+
+/// Slower than this the car stands, m/s.
+const STANDSTILL: f64 = 0.02;
+
+/// Gain of the free-road speed controller, 1/s.
+const CRUISE_GAIN: f64 = 0.8;
+
+/// An obstacle slower than this along the path crosses it rather than leads, m/s.
+const LEADER_SPEED: f64 = 0.5;
+
+/// Constraints that want less braking than this share of comfortable braking can wait.
+const BRAKE_LATE: f64 = 0.6;
+
+/// Motion along the path at one time.
+#[derive(Clone, Copy)]
+struct State {
+    t: f64,
+    distance: f64,
+    v: f64,
+    a: f64,
+}
+
+/// How a claim is dealt with.
+#[derive(Clone, Copy, PartialEq)]
+enum Response {
+    /// Stay behind it, wherever it is at the time.
+    Follow,
+    /// Stop before its stretch until it has gone.
+    Yield,
+    /// Be gone before it comes, or it is gone before we come.
+    Ignore,
+}
+
+pub(super) fn integrate(
+    scene: &Scene,
+    path: &Path,
+    envelope: &Envelope,
+    stop: Stop,
+    claims: &[Claim],
+) -> Planned {
+    let planner = Planner {
+        scene,
+        envelope,
+        stop,
+        config: &scene.config.speed,
+    };
+    let mut responses: Vec<Response> = claims.iter().map(first_response).collect();
+    let mut states = planner.run(claims, &responses, false);
+    // A claim that can be ignored is, until the profile made so meets it.
+    for _ in 0..claims.len() {
+        let Some(hit) = first_hit(claims, &responses, &states, planner.config.yield_time) else {
+            break;
+        };
+        responses[hit] = Response::Yield;
+        states = planner.run(claims, &responses, false);
+    }
+    if meets_any(claims, &states) {
+        states = planner.run(claims, &responses, true);
+    }
+    let reason = planner.reason(claims, &responses, &states);
+    Planned {
+        trajectory: states.iter().map(|state| on_path(path, state)).collect(),
+        stop: reason,
+    }
+}
+
+/// Something that is on the path and goes our way is followed; what stands on it or comes at us is yielded to.
+fn first_response(claim: &Claim) -> Response {
+    match claim {
+        _ if claim.s_dot > LEADER_SPEED => Response::Follow,
+        _ if claim.is_present => Response::Yield,
+        _ => Response::Ignore,
+    }
+}
+
+struct Planner<'a> {
+    scene: &'a Scene<'a>,
+    envelope: &'a Envelope,
+    stop: Stop,
+    config: &'a SpeedConfig,
+}
+
+impl Planner<'_> {
+    fn run(&self, claims: &[Claim], responses: &[Response], emergency: bool) -> Vec<State> {
+        let start = &self.scene.start;
+        let mut state = State {
+            t: 0.0,
+            distance: 0.0,
+            v: start.v,
+            a: start.a,
+        };
+        let mut states = Vec::with_capacity(STEPS as usize + 1);
+        states.push(state);
+        for _ in 0..STEPS {
+            let wanted = if emergency {
+                self.scene.vehicle.max_deceleration
+            } else {
+                self.acceleration(&state, claims, responses)
+            };
+            state = self.advance(&state, wanted);
+            states.push(state);
+        }
+        states
+    }
+
+    /// The acceleration that the tightest constraint allows.
+    fn acceleration(&self, state: &State, claims: &[Claim], responses: &[Response]) -> f64 {
+        let mut wanted =
+            self.cruise(state)
+                .min(self.brake_for(state, self.stop.distance - state.distance, 0.0));
+        for (claim, response) in claims.iter().zip(responses) {
+            match response {
+                Response::Ignore => {}
+                Response::Follow => {
+                    if let Some(there) = claim.at(state.t) {
+                        wanted = wanted.min(self.follow(state, &there, claim.s_dot));
+                    }
+                }
+                Response::Yield => {
+                    if let Some(fence) = fence(claim, state) {
+                        let gap = fence - self.config.follow_distance - state.distance;
+                        wanted = wanted.min(self.brake_for(state, gap, 0.0));
+                    }
+                }
+            }
+        }
+        wanted
+    }
+
+    /// Towards the speed that the road allows here and shortly ahead.
+    fn cruise(&self, state: &State) -> f64 {
+        let here = self.envelope.at(state.distance);
+        let ahead = self.envelope.at(state.distance + state.v * STEP * 2.0);
+        let limit = here.min(ahead);
+        (CRUISE_GAIN * (limit - state.v)).clamp(-self.config.braking * 1.25, self.config.acceleration)
+    }
+
+    /// Braking that comes down to speed `v_end` in `gap` metres; none as long as that is far off.
+    fn brake_for(&self, state: &State, gap: f64, v_end: f64) -> f64 {
+        let needed = state.v * state.v - v_end * v_end;
+        if needed <= 0.0 {
+            // Standing or slow enough: do not creep over the line.
+            return if gap > STANDSTILL {
+                self.config.acceleration.min(gap * 2.0)
+            } else {
+                0.0_f64.min(gap)
+            };
+        }
+        let braking = needed / (2.0 * gap.max(0.01));
+        // Starting up towards a near stop, the speed from which one can still stop gently is the limit.
+        let gentle = (2.0 * self.config.braking * BRAKE_LATE * gap.max(0.0)).sqrt();
+        if braking < self.config.braking * BRAKE_LATE {
+            return (CRUISE_GAIN * 2.0 * (gentle - state.v)).max(0.0);
+        }
+        -braking
+    }
+
+    /// The Intelligent Driver Model behind a leader.
+    fn follow(&self, state: &State, there: &Occupied, v_leader: f64) -> f64 {
+        let config = self.config;
+        let gap = (there.low - state.distance).max(0.1);
+        let closing = state.v - v_leader;
+        let dynamic = state.v * closing / (2.0 * (config.acceleration * config.braking).sqrt());
+        let wanted = config.follow_distance + (state.v * config.follow_time + dynamic).max(0.0);
+        let ratio = wanted / gap;
+        let cruise = (state.v / self.scene.frame.cruise_speed.max(1.0)).min(1.0);
+        config.acceleration * (1.0 - cruise * cruise * cruise * cruise - ratio * ratio)
+    }
+
+    /// One step with limited jerk; hard braking may come fast.
+    fn advance(&self, state: &State, wanted: f64) -> State {
+        let config = self.config;
+        let vehicle = self.scene.vehicle;
+        let wanted = wanted.clamp(
+            vehicle.max_deceleration,
+            config.acceleration.min(vehicle.max_acceleration),
+        );
+        let jerk = if wanted < -config.hard_braking {
+            config.emergency_jerk
+        } else {
+            config.jerk
+        };
+        let mut a = wanted.clamp(state.a - jerk * STEP, state.a + jerk * STEP);
+        let mut v = state.v + a * STEP;
+        if v < STANDSTILL && a <= 0.0 {
+            v = 0.0;
+            a = 0.0;
+        }
+        let distance = state.distance + f64::midpoint(state.v, v) * STEP;
+        State {
+            t: state.t + STEP,
+            distance,
+            v,
+            a,
+        }
+    }
+
+    /// The constraint that rules at the start or, failing that, the stop within the horizon.
+    fn reason(&self, claims: &[Claim], responses: &[Response], states: &[State]) -> Option<Stop> {
+        let start = &states[0];
+        let end = &states[states.len() - 1];
+        let mut tightest = (self.cruise(start) - 1e-9, None);
+        for (claim, response) in claims.iter().zip(responses) {
+            let only = self.acceleration(start, std::slice::from_ref(claim), &[*response]);
+            if only < tightest.0 && *response != Response::Ignore {
+                let cause = match response {
+                    Response::Follow => StopCause::Follow(claim.id),
+                    _ => StopCause::Yield(claim.id),
+                };
+                tightest = (
+                    only,
+                    Some(Stop {
+                        distance: claim.occupied[0].low,
+                        cause,
+                    }),
+                );
+            }
+        }
+        let stops = self.brake_for(start, self.stop.distance - start.distance, 0.0) <= tightest.0;
+        if stops || (tightest.1.is_none() && end.v <= STANDSTILL) {
+            Some(self.stop)
+        } else {
+            tightest.1
+        }
+    }
+}
+
+/// The nearest place before a claim's stretch that is still to be kept free at this time.
+fn fence(claim: &Claim, state: &State) -> Option<f64> {
+    let to_come = claim
+        .occupied
+        .iter()
+        .filter(|o| o.t + claim.period >= state.t && o.high > state.distance);
+    to_come.map(|o| o.low).min_by(f64::total_cmp)
+}
+
+/// The first ignored claim that the profile comes too near to in time.
+fn first_hit(claims: &[Claim], responses: &[Response], states: &[State], margin: f64) -> Option<usize> {
+    claims.iter().zip(responses).position(|(claim, response)| {
+        *response == Response::Ignore
+            && states.iter().any(|state| {
+                claim.occupied.iter().any(|o| {
+                    (o.t - state.t).abs() <= margin && state.distance > o.low && state.distance < o.high
+                })
+            })
+    })
+}
+
+/// Whether the profile enters any claimed stretch at its time.
+fn meets_any(claims: &[Claim], states: &[State]) -> bool {
+    let hits = |claim: &Claim, state: &State| {
+        claim
+            .at(state.t)
+            .is_some_and(|o| state.distance > o.low && state.distance < o.high)
+    };
+    claims.iter().any(|claim| {
+        states
+            .iter()
+            .any(|state| state.v > STANDSTILL && hits(claim, state))
+    })
+}
+
+/// The path's point at a distance, with the motion there. The end goes on straight.
+fn on_path(path: &Path, state: &State) -> TrajectoryPoint {
+    let points = &path.points;
+    let above = points
+        .partition_point(|p| p.distance <= state.distance)
+        .clamp(1, points.len() - 1);
+    let (a, b): (&PathPoint, &PathPoint) = (&points[above - 1], &points[above]);
+    let share = (state.distance - a.distance) / (b.distance - a.distance);
+    let mix = |x: f64, y: f64| x + (y - x) * share;
+    let turn = angle::difference(b.pose.theta, a.pose.theta);
+    TrajectoryPoint {
+        t: state.t,
+        distance: state.distance,
+        pose: Pose::new(
+            mix(a.pose.x, b.pose.x),
+            mix(a.pose.y, b.pose.y),
+            angle::wrap(a.pose.theta + turn * share),
+        ),
+        kappa: mix(a.kappa, b.kappa),
+        v: state.v,
+        a: state.a,
+    }
+}
