@@ -13,6 +13,7 @@
 pub mod error;
 mod expectation;
 mod family;
+pub mod import;
 mod map_source;
 pub mod random;
 mod resolve;
