@@ -2,7 +2,28 @@
 //!
 //! A file is either one scenario or, where a number is a distribution, a *family*; `(family, seed)` is one
 //! [`Scenario`]. This crate knows roads and places; it knows neither physics nor the tick loop.
+//!
+//! ```text
+//! text ──schema──▶ ScenarioFile ──┐
+//!                                 ├─ Family ──draw(seed)──▶ numbers ─▶ places ─▶ validity ─▶ Scenario
+//! map  ──import──▶ RoadMap ───────┘                            ▲                     │
+//!                                                              └── next attempt ─────┘
+//! ```
 
+pub mod error;
+mod expectation;
+mod family;
+pub mod import;
+mod map_source;
+pub mod random;
+mod resolve;
+mod route;
 pub mod scenario;
+pub mod schema;
+mod validity;
 
+pub use error::{DrawError, ScenarioError};
+pub use family::{Drawn, Family};
+pub use map_source::{LoadedMap, MapCache};
 pub use scenario::Scenario;
+pub use validity::Rejection;

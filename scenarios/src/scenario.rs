@@ -182,4 +182,9 @@ pub enum Expectation {
     Refusal,
     /// Stand behind something that cannot be passed.
     Standstill,
+    /// Reach the goal this far from the start, m, or stand: the way is wide enough for the car, but not for all
+    /// clearances.
+    ProgressOrStandstill(f64),
+    /// Stand at the road's edge or refuse: the gap is long enough for the car, but not for all clearances.
+    PulledOverOrRefusal,
 }

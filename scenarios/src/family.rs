@@ -1,0 +1,313 @@
+//! A scenario file on its road: `(family, seed)` is one scenario.
+
+use crate::error::{DrawError, Place, ScenarioError};
+use crate::expectation;
+use crate::map_source::{LoadedMap, MapCache};
+use crate::resolve::Draft;
+use crate::resolve::sampler::Sampler;
+use crate::route::{self, Road};
+use crate::scenario::Scenario;
+use crate::schema::ScenarioFile;
+use crate::schema::task::{Expect, Task};
+use crate::validity::{self, Rejection, Scene};
+use corridor_decider::road::{LaneId, RoadMap};
+use std::path::Path;
+use std::sync::Arc;
+use toml::Spanned;
+
+/// How often one seed is tried. A family of which one draw in ten is possible fails one seed in 38,000.
+const ATTEMPTS: u32 = 100;
+
+/// Length of route beyond the ego's first lane, m, where a run is too short to ask for more.
+const LEAST_ROUTE: f64 = 400.0;
+
+/// Longest route, m: what an ego can drive in a minute at 180 km/h. Longer runs end with the route.
+const LONGEST_ROUTE: f64 = 3000.0;
+
+/// Length of route beyond what cruising reaches, m: what one plans ahead.
+const PLANNED_AHEAD: f64 = 150.0;
+
+/// A scenario file with its map read and its route found.
+#[derive(Debug)]
+pub struct Family {
+    name: String,
+    file: ScenarioFile,
+    expect: Expect,
+    source: Arc<str>,
+    map: LoadedMap,
+    road: Road,
+    fixed: bool,
+}
+
+/// A scenario with what was rejected before it.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// The scenario.
+    pub scenario: Scenario,
+    /// Why earlier attempts at this seed were not run.
+    pub rejected: Vec<Rejection>,
+}
+
+impl Family {
+    /// Reads a scenario file and its map.
+    ///
+    /// # Errors
+    /// [`ScenarioError`] with the place of the first mistake.
+    pub fn load(path: &Path) -> Result<Self, ScenarioError> {
+        Self::load_with(path, &MapCache::new())
+    }
+
+    /// Reads a scenario file; its map from `maps`, where it stays.
+    ///
+    /// # Errors
+    /// [`ScenarioError`] with the place of the first mistake.
+    pub fn load_with(path: &Path, maps: &MapCache) -> Result<Self, ScenarioError> {
+        let text = std::fs::read_to_string(path).map_err(|source| ScenarioError::Read {
+            path: path.to_owned(),
+            source,
+        })?;
+        let base = path.parent().unwrap_or(Path::new(""));
+        Self::parse_with(&text, &path.display().to_string(), base, maps)
+    }
+
+    /// Reads the text of a scenario file called `file`, which lies in `base`.
+    ///
+    /// # Errors
+    /// [`ScenarioError`] with the place of the first mistake.
+    pub fn parse(text: &str, file: &str, base: &Path) -> Result<Self, ScenarioError> {
+        Self::parse_with(text, file, base, &MapCache::new())
+    }
+
+    /// Reads the text of a scenario file; its map from `maps`, where it stays.
+    ///
+    /// # Errors
+    /// [`ScenarioError`] with the place of the first mistake.
+    pub fn parse_with(text: &str, file: &str, base: &Path, maps: &MapCache) -> Result<Self, ScenarioError> {
+        let content = ScenarioFile::parse(text, file)?;
+        let place = |of: &Spanned<String>| Place::of(text, file, of.span());
+        let map = maps.get(content.map.get_ref(), base, &place(&content.map))?;
+        let road = road(&content, &map.map, &place)?;
+        let stem = Path::new(file)
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned());
+        let mut family = Self {
+            name: content.name.clone().or(stem).unwrap_or_default(),
+            expect: content
+                .expect
+                .clone()
+                .unwrap_or_else(|| expectation::usual(&content.command.task)),
+            file: content,
+            source: text.into(),
+            map,
+            road,
+            fixed: false,
+        };
+        let first = Sampler::new(0, 0);
+        // What the first attempt comes to does not matter here, only whether it took a random number.
+        let _ = family.attempt(0, &first);
+        family.fixed = !first.was_random();
+        Ok(family)
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// One sentence for people.
+    pub fn description(&self) -> &str {
+        &self.file.description
+    }
+
+    /// The text of its file.
+    pub fn source(&self) -> &Arc<str> {
+        &self.source
+    }
+
+    /// The text of its map's file.
+    pub fn map_text(&self) -> &Arc<str> {
+        &self.map.text
+    }
+
+    /// The road it is on.
+    pub fn map(&self) -> &Arc<RoadMap> {
+        &self.map.map
+    }
+
+    /// What the map's reader had to leave out or repair.
+    pub fn map_warnings(&self) -> &[String] {
+        &self.map.warnings
+    }
+
+    /// Whether every seed gives the same scenario.
+    pub fn is_fixed(&self) -> bool {
+        self.fixed
+    }
+
+    /// The scenario of one seed: the first attempt that is possible.
+    ///
+    /// # Errors
+    /// [`DrawError`] when none is.
+    pub fn draw(&self, seed: u64) -> Result<Drawn, DrawError> {
+        let mut rejected = Vec::new();
+        for attempt in 0..ATTEMPTS {
+            match self.attempt(seed, &Sampler::new(seed, attempt)) {
+                Ok(scenario) => return Ok(Drawn { scenario, rejected }),
+                Err(reason) if self.fixed => {
+                    return Err(DrawError::Impossible {
+                        family: self.name.clone(),
+                        reason,
+                    });
+                }
+                Err(reason) => rejected.push(reason),
+            }
+        }
+        Err(DrawError::Exhausted {
+            family: self.name.clone(),
+            seed,
+            rejected,
+        })
+    }
+
+    fn attempt(&self, seed: u64, sampler: &Sampler) -> Result<Scenario, Rejection> {
+        let distance = match &self.expect {
+            Expect::Progress(distance) | Expect::ProgressByGap(distance) => distance.as_ref(),
+            _ => None,
+        };
+        let distance = distance.map(|d| sampler.table(format_args!("expect.")).number("distance", d));
+        let draft = Draft::new(&self.file, &self.road, sampler)?;
+        let scene = Scene::new(&draft, &self.road);
+        validity::check(&scene)?;
+        let expect = expectation::expectation(&scene, &self.file.command.task, &self.expect, distance)?;
+        Ok(Scenario {
+            name: self.name.clone(),
+            description: self.file.description.clone(),
+            seed,
+            map: Arc::clone(&self.road.map),
+            route: self.road.route.clone(),
+            line: Arc::clone(&self.road.line),
+            target_line: self.road.target_line.clone(),
+            ego: draft.ego,
+            command: draft.command,
+            command_time: draft.command_time,
+            cruise_speed: draft.cruise_speed,
+            obstacles: draft.obstacles,
+            vehicle: draft.vehicle,
+            timeout: draft.timeout,
+            expect,
+        })
+    }
+}
+
+/// Finds the route and the lines along and beside it.
+fn road(
+    file: &ScenarioFile,
+    map: &Arc<RoadMap>,
+    place: &dyn Fn(&Spanned<String>) -> Place,
+) -> Result<Road, ScenarioError> {
+    let longest_run = file.cruise_speed.upper_end() * file.timeout.upper_end() + PLANNED_AHEAD;
+    let length = longest_run.clamp(LEAST_ROUTE, LONGEST_ROUTE);
+    let route = if file.route.is_empty() {
+        let start = match &file.ego.lane {
+            Some(name) => find(map, name, place)?,
+            None => route::first_lane(map).ok_or_else(|| ScenarioError::Route {
+                place: place(&file.map),
+                problem: "the map has no drivable lane outside junctions: name one as `lane` in `[ego]`"
+                    .to_owned(),
+            })?,
+        };
+        route::straight_on(map, start, length)
+    } else {
+        named_route(file, map, place)?
+    };
+    let side = match file.command.task {
+        Task::ChangeLane(side) => Some(side),
+        _ => None,
+    };
+    Road::new(Arc::clone(map), route, side, length).map_err(|error| ScenarioError::Route {
+        place: place(file.route.first().or(file.ego.lane.as_ref()).unwrap_or(&file.map)),
+        problem: error.to_string(),
+    })
+}
+
+/// The lanes that the file names, checked to follow each other.
+fn named_route(
+    file: &ScenarioFile,
+    map: &RoadMap,
+    place: &dyn Fn(&Spanned<String>) -> Place,
+) -> Result<Vec<LaneId>, ScenarioError> {
+    let mut route: Vec<LaneId> = Vec::new();
+    for name in &file.route {
+        let lane = find(map, name, place)?;
+        if let Some(last) = route
+            .last()
+            .map(|id| map.lane(*id))
+            .filter(|last| !last.successors.contains(&lane))
+        {
+            let next: Vec<&str> = last
+                .successors
+                .iter()
+                .map(|id| map.lane(*id).name.as_str())
+                .collect();
+            return Err(ScenarioError::Route {
+                place: place(name),
+                problem: format!(
+                    "lane `{}` does not follow `{}`: expected {}",
+                    name.get_ref(),
+                    last.name,
+                    list(&next)
+                ),
+            });
+        }
+        route.push(lane);
+    }
+    match &file.ego.lane {
+        Some(lane) if file.route.first().map(Spanned::get_ref) != Some(lane.get_ref()) => {
+            Err(ScenarioError::Route {
+                place: place(lane),
+                problem: format!("the route does not start in the ego's lane `{}`", lane.get_ref()),
+            })
+        }
+        _ => Ok(route),
+    }
+}
+
+fn find(
+    map: &RoadMap,
+    name: &Spanned<String>,
+    place: &dyn Fn(&Spanned<String>) -> Place,
+) -> Result<LaneId, ScenarioError> {
+    let error = |problem| ScenarioError::Route {
+        place: place(name),
+        problem,
+    };
+    let found = map.find(name.get_ref()).ok_or_else(|| {
+        let lanes = map.lanes().iter().filter(|lane| lane.kind.is_drivable());
+        let names: Vec<&str> = lanes.map(|lane| lane.name.as_str()).collect();
+        error(format!(
+            "the map has no lane `{}`: expected {}",
+            name.get_ref(),
+            list(&names)
+        ))
+    })?;
+    if !map.lane(found).kind.is_drivable() {
+        return Err(error(format!("lane `{}` is not for driving", name.get_ref())));
+    }
+    Ok(found)
+}
+
+/// Names for a message: the first dozen.
+fn list(names: &[&str]) -> String {
+    const SHOWN: usize = 12;
+    if names.is_empty() {
+        return "nothing, the map ends there".to_owned();
+    }
+    let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
+    let more = names.len().saturating_sub(SHOWN);
+    let tail = if more > 0 {
+        format!(" and {more} more")
+    } else {
+        String::new()
+    };
+    format!("{}{tail}", shown.join(", "))
+}

@@ -1,0 +1,93 @@
+//! Why a map file cannot be read, and where in the file.
+
+use corridor_decider::road::MapError;
+use std::fmt;
+
+/// A place in a text file; both numbers count from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TextPlace {
+    /// Line.
+    pub line: usize,
+    /// Column in characters.
+    pub column: usize,
+}
+
+impl fmt::Display for TextPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.line, self.column)
+    }
+}
+
+/// Why a map file cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ImportError {
+    /// The file cannot be opened or read.
+    #[error("cannot be read: {0}")]
+    Io(#[from] std::io::Error),
+    /// The text is not well-formed XML.
+    #[error("{place}: not well-formed XML: {problem}")]
+    Xml {
+        /// Where the XML reader gave up.
+        place: TextPlace,
+        /// What it said.
+        problem: String,
+    },
+    /// An element that is incomplete, contradictory or out of range.
+    #[error("{place}: <{element}> {problem}; expected {expected}")]
+    Element {
+        /// Where the element starts.
+        place: TextPlace,
+        /// Name of the element.
+        element: String,
+        /// What is wrong with it.
+        problem: String,
+        /// What would be right.
+        expected: String,
+    },
+    /// The map would not fit into memory or time.
+    #[error(
+        "{place}: the map is larger than {limit} at road `{road}`; expected at most that much road surface"
+    )]
+    TooLarge {
+        /// The road that passed the limit.
+        place: TextPlace,
+        /// Its id.
+        road: String,
+        /// The limit in words.
+        limit: &'static str,
+    },
+    /// Every element is readable but the whole is not a map.
+    #[error("{0}")]
+    Map(#[from] MapError),
+    /// Any of the above, in a named file.
+    #[error("{}", in_file(.file, .error))]
+    InFile {
+        /// The file as the caller named it.
+        file: String,
+        /// What is wrong in it.
+        #[source]
+        error: Box<ImportError>,
+    },
+}
+
+impl ImportError {
+    /// The place in the text, where there is one.
+    pub fn place(&self) -> Option<TextPlace> {
+        match self {
+            Self::Xml { place, .. } | Self::Element { place, .. } | Self::TooLarge { place, .. } => {
+                Some(*place)
+            }
+            Self::InFile { error, .. } => error.place(),
+            Self::Io(_) | Self::Map(_) => None,
+        }
+    }
+}
+
+/// `file:line:column: problem`, the form that editors can jump to.
+fn in_file(file: &str, error: &ImportError) -> String {
+    match error.place() {
+        Some(_) => format!("{file}:{error}"),
+        None => format!("{file}: {error}"),
+    }
+}

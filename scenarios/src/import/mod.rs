@@ -1,0 +1,9 @@
+//! Map importers: files of other people's formats in, a [`RoadMap`](corridor_decider::road::RoadMap) out.
+//!
+//! A reader survives what real files contain and tells it as a warning; what it cannot read it refuses with the
+//! line, the column and what would have been right. No input makes it panic or run without end.
+
+mod error;
+pub mod opendrive;
+
+pub use error::{ImportError, TextPlace};

@@ -1,0 +1,145 @@
+//! Finds and reads the map that a scenario names, once for all its seeds.
+
+use crate::error::{Place, ScenarioError};
+use crate::import::opendrive;
+use corridor_decider::road::RoadMap;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Stands for the folder of shared maps in a scenario's map path.
+const MAPS_PREFIX: &str = "$MAPS/";
+
+/// Names the folder of shared maps.
+const MAPS_VARIABLE: &str = "CORRIDOR_MAPS";
+
+/// A map with the text it was read from.
+#[derive(Clone, Debug)]
+pub struct LoadedMap {
+    /// The map.
+    pub map: Arc<RoadMap>,
+    /// The text of its file.
+    pub text: Arc<str>,
+    /// What the reader had to leave out or repair.
+    pub warnings: Arc<[String]>,
+}
+
+/// Maps by where they come from. Cheap to share between threads; every map is read once.
+#[derive(Debug, Default)]
+pub struct MapCache {
+    maps: Mutex<BTreeMap<String, LoadedMap>>,
+}
+
+impl MapCache {
+    /// An empty cache.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Puts a map in under a name, before what files and the program hold under that name.
+    pub fn insert(&self, name: &str, map: LoadedMap) {
+        self.lock().insert(name.to_owned(), map);
+    }
+
+    /// The map called `name` in a scenario file that lies in `base`.
+    ///
+    /// # Errors
+    /// [`ScenarioError::MapNotFound`] or [`ScenarioError::MapInvalid`], at `place`.
+    pub(crate) fn get(&self, name: &str, base: &Path, place: &Place) -> Result<LoadedMap, ScenarioError> {
+        if let Some(found) = self.lock().get(name) {
+            return Ok(found.clone());
+        }
+        let not_found = |hint: String| ScenarioError::MapNotFound {
+            place: place.clone(),
+            map: name.to_owned(),
+            hint,
+        };
+        let (key, text): (String, Arc<str>) = if is_path(name) {
+            let path = locate(name, base).map_err(not_found)?;
+            let key = path.display().to_string();
+            if let Some(found) = self.lock().get(&key) {
+                return Ok(found.clone());
+            }
+            let text = std::fs::read_to_string(&path)
+                .map_err(|e| not_found(format!("cannot read `{}`: {e}", path.display())))?;
+            (key, text.into())
+        } else {
+            let text = embedded(name).ok_or_else(|| {
+                not_found(format!(
+                    "expected one of {} or a path ending in `.xodr`",
+                    own_maps()
+                ))
+            })?;
+            (name.to_owned(), text.into())
+        };
+        let loaded = read(text).map_err(|problem| ScenarioError::MapInvalid {
+            place: place.clone(),
+            map: name.to_owned(),
+            problem,
+        })?;
+        self.lock().insert(key, loaded.clone());
+        Ok(loaded)
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, BTreeMap<String, LoadedMap>> {
+        // A map is only put in when it is whole, so a panic elsewhere leaves nothing broken.
+        self.maps.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn read(text: Arc<str>) -> Result<LoadedMap, String> {
+    let import = opendrive::read(&text).map_err(|e| e.to_string())?;
+    Ok(LoadedMap {
+        map: Arc::new(import.map),
+        text,
+        warnings: import.warnings.into(),
+    })
+}
+
+fn embedded(_name: &str) -> Option<&'static str> {
+    None
+}
+
+const NAMES: [&str; 0] = [];
+
+fn own_maps() -> String {
+    let names: Vec<String> = NAMES.iter().map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}
+
+fn is_path(name: &str) -> bool {
+    name.contains(['/', '\\'])
+        || Path::new(name)
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("xodr"))
+}
+
+/// The path that a map name means, or where it was looked for in vain.
+fn locate(name: &str, base: &Path) -> Result<PathBuf, String> {
+    let path = match name.strip_prefix(MAPS_PREFIX) {
+        Some(rest) => shared_maps().join(rest),
+        None => base.join(name),
+    };
+    if path.is_file() {
+        return Ok(path);
+    }
+    Err(if name.starts_with(MAPS_PREFIX) {
+        format!(
+            "`{}` does not exist; set {MAPS_VARIABLE} to the folder of shared maps",
+            path.display()
+        )
+    } else {
+        format!(
+            "`{}` does not exist; a path is relative to the scenario file",
+            path.display()
+        )
+    })
+}
+
+/// The folder of shared maps: the one the environment names, else `shared/maps` beside the workspace.
+fn shared_maps() -> PathBuf {
+    std::env::var_os(MAPS_VARIABLE).map_or_else(
+        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/maps"),
+        PathBuf::from,
+    )
+}

@@ -1,0 +1,129 @@
+//! The lanes to follow, and the lines along them and beside them.
+
+use corridor_decider::geometry::angle;
+use corridor_decider::reference_line::{LineError, ReferenceLine};
+use corridor_decider::road::{LaneId, Neighbour, RoadMap, Side};
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Largest gap between a lane and its successor that a line bridges, m; that of the reference line.
+const JOIN_TOLERANCE: f64 = 0.5;
+
+/// The road of a family: what all its seeds share.
+#[derive(Debug)]
+pub(crate) struct Road {
+    pub(crate) map: Arc<RoadMap>,
+    pub(crate) route: Vec<LaneId>,
+    pub(crate) line: Arc<ReferenceLine>,
+    pub(crate) target_line: Option<Arc<ReferenceLine>>,
+    /// Length that other lines should have, m.
+    reach: f64,
+    /// Lines of oncoming traffic, by their first lane; made when first asked for.
+    others: Mutex<BTreeMap<LaneId, Arc<ReferenceLine>>>,
+}
+
+impl Road {
+    /// The road along `route`, with the line to change to on `side`.
+    ///
+    /// # Errors
+    /// [`LineError`] when two lanes of the route do not meet.
+    pub(crate) fn new(
+        map: Arc<RoadMap>,
+        route: Vec<LaneId>,
+        side: Option<Side>,
+        reach: f64,
+    ) -> Result<Self, LineError> {
+        let line = Arc::new(ReferenceLine::along(&map, &route)?);
+        let target_line = match side.and_then(|side| beside(&map, &route, side)) {
+            Some(lanes) => Some(Arc::new(ReferenceLine::along(&map, &lanes)?)),
+            None => None,
+        };
+        Ok(Self {
+            map,
+            route,
+            line,
+            target_line,
+            reach,
+            others: Mutex::new(BTreeMap::new()),
+        })
+    }
+
+    /// The line straight on from `lane`.
+    pub(crate) fn line_from(&self, lane: LaneId) -> Option<Arc<ReferenceLine>> {
+        let mut others = self.others.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(line) = others.get(&lane) {
+            return Some(Arc::clone(line));
+        }
+        let lanes = straight_on(&self.map, lane, self.reach);
+        let line = Arc::new(ReferenceLine::along(&self.map, &lanes).ok()?);
+        others.insert(lane, Arc::clone(&line));
+        Some(line)
+    }
+}
+
+/// The lane an ego starts in when the file names none: the first drivable one outside junctions.
+pub(crate) fn first_lane(map: &RoadMap) -> Option<LaneId> {
+    (0u32..)
+        .zip(map.lanes())
+        .find(|(_, lane)| lane.kind.is_drivable() && lane.junction.is_none())
+        .map(|(k, _)| LaneId(k))
+}
+
+/// Lanes from `start` on until they reach `length` metres beyond it or the map ends: in a fork the one that
+/// turns least. No lane comes twice.
+pub(crate) fn straight_on(map: &RoadMap, start: LaneId, length: f64) -> Vec<LaneId> {
+    let mut lanes = vec![start];
+    let (mut last, mut reached) = (start, 0.0);
+    while reached < length {
+        let next = map
+            .lane(last)
+            .successors
+            .iter()
+            .copied()
+            .filter(|next| {
+                !lanes.contains(next) && map.lane(*next).kind.is_drivable() && joins(map, last, *next)
+            })
+            .min_by(|a, b| turn(map, last, *a).total_cmp(&turn(map, last, *b)).then(a.cmp(b)));
+        let Some(next) = next else { break };
+        reached += map.lane(next).length();
+        lanes.push(next);
+        last = next;
+    }
+    lanes
+}
+
+/// How far `next` leads away from the direction in which `lane` ends, rad.
+fn turn(map: &RoadMap, lane: LaneId, next: LaneId) -> f64 {
+    match (map.lane(lane).points.last(), map.lane(next).points.last()) {
+        (Some(end), Some(exit)) => angle::difference(exit.theta, end.theta).abs(),
+        _ => f64::MAX,
+    }
+}
+
+fn joins(map: &RoadMap, lane: LaneId, next: LaneId) -> bool {
+    match (map.lane(lane).points.last(), map.lane(next).points.first()) {
+        (Some(end), Some(start)) => (start.offset(0.0) - end.offset(0.0)).norm() <= JOIN_TOLERANCE,
+        _ => false,
+    }
+}
+
+/// The lanes beside a route, on `side`, in its direction: from its first lane's neighbour on. Where the route's
+/// next lane has a neighbour that goes on from here, that one; otherwise straight on. `None` without a neighbour.
+fn beside(map: &RoadMap, route: &[LaneId], side: Side) -> Option<Vec<LaneId>> {
+    let kind = Neighbour { side, reverse: false };
+    let mut lanes = vec![map.neighbour(*route.first()?, kind)?];
+    for along in &route[1..] {
+        let last = *lanes.last()?;
+        let linked = map
+            .neighbour(*along, kind)
+            .filter(|next| map.lane(last).successors.contains(next) && joins(map, last, *next));
+        let Some(next) = linked.or_else(|| straight_on(map, last, f64::MIN_POSITIVE).get(1).copied()) else {
+            break;
+        };
+        if lanes.contains(&next) {
+            break;
+        }
+        lanes.push(next);
+    }
+    Some(lanes)
+}
