@@ -1,0 +1,148 @@
+//! Who drives ahead: the nearest body whose outline reaches into the strip that a follower is about to sweep.
+
+use super::along_line::LineFollower;
+use crate::world::BodyPose;
+use corridor_decider::geometry::{ConvexPolygon, Pose, Vec2, angle};
+use corridor_decider::reference_line::{LineSample, ReferenceLine};
+
+/// How far ahead a driver looks, m: at 14 m/s the model begins to brake for a standing car at 80 m.
+const LOOK_AHEAD: f64 = 100.0;
+
+/// Room that a driver wants on each side of his own width, m. Whoever leaves it free is passed.
+const SIDE_ROOM: f64 = 0.3;
+
+/// Samples that a first search along the line skips at a time: about four metres.
+const STRIDE: usize = 8;
+
+/// A body as others see it.
+#[derive(Clone, Debug)]
+pub(super) struct Body {
+    pub(super) pose: Pose,
+    pub(super) velocity: Vec2,
+    /// Whether it can ever move.
+    pub(super) moves: bool,
+    /// Its outline in its own frame.
+    vertices: Vec<Vec2>,
+    /// How far it reaches ahead of its centre, to either side of it, and anywhere, m.
+    front: f64,
+    half_width: f64,
+    reach: f64,
+}
+
+/// The one ahead.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Leader {
+    /// From bumper to bumper along the line, m.
+    pub(super) gap: f64,
+    /// Its speed along the line, m/s; negative when it comes closer.
+    pub(super) speed: f64,
+}
+
+impl Body {
+    pub(super) fn new(shape: &ConvexPolygon, at: BodyPose, moves: bool) -> Self {
+        let largest = |of: fn(&Vec2) -> f64| shape.vertices().iter().map(of).fold(0.0, f64::max);
+        Self {
+            pose: at.pose,
+            velocity: at.velocity,
+            moves,
+            vertices: shape.vertices().to_vec(),
+            front: largest(|v| v.x),
+            half_width: largest(|v| v.y.abs()),
+            reach: largest(|v| v.norm()),
+        }
+    }
+
+    pub(super) fn place(&mut self, pose: Pose, velocity: Vec2) {
+        self.pose = pose;
+        self.velocity = velocity;
+    }
+}
+
+/// The nearest of `others` ahead of `follower`, whose body is `own` and which is between the offsets `strip` now
+/// or soon.
+pub(super) fn leader_of<'a>(
+    follower: &LineFollower,
+    own: &Body,
+    strip: (f64, f64),
+    others: impl Iterator<Item = &'a Body>,
+) -> Option<Leader> {
+    let room = own.half_width + SIDE_ROOM;
+    let nose = follower.s + own.front;
+    let mut nearest: Option<Leader> = None;
+    for other in others {
+        let reach = LOOK_AHEAD + other.reach;
+        if (other.pose.position() - own.pose.position()).norm_squared() > reach * reach {
+            continue;
+        }
+        let Some(seen) = seen_from_line(&follower.line, follower.s, other) else {
+            continue;
+        };
+        let inside = seen.left > strip.0 - room && seen.right < strip.1 + room;
+        let gap = seen.tail - nose;
+        if inside && seen.middle > follower.s && nearest.is_none_or(|best| gap < best.gap) {
+            let speed = seen.speed;
+            nearest = Some(Leader { gap, speed });
+        }
+    }
+    nearest
+}
+
+/// A body in the Frenet frame of a line.
+struct Seen {
+    /// Station of its centre, and its smallest one, m.
+    middle: f64,
+    tail: f64,
+    /// Its smallest and its largest offset, m.
+    right: f64,
+    left: f64,
+    /// Speed along the line, m/s.
+    speed: f64,
+}
+
+/// Projects `body` on the part of `line` within sight of `from`; `None` when it is beside no part of it.
+fn seen_from_line(line: &ReferenceLine, from: f64, body: &Body) -> Option<Seen> {
+    let samples = line.samples();
+    let first = samples.partition_point(|p| p.s < from).saturating_sub(1);
+    let last = samples.partition_point(|p| p.s <= from + LOOK_AHEAD);
+    let near = nearest_sample(samples.get(first..last)?, body.pose.position())?;
+    let (sin, cos) = angle::sin_cos(near.point.theta);
+    let axis = Vec2::new(cos, sin);
+    // Around the nearest sample the line is an arc: second order is exact to millimetres over a car's length.
+    let frenet = |world: Vec2| {
+        let d = world - Vec2::new(near.point.x, near.point.y);
+        let (x, y) = (axis.dot(&d), cos * d.y - sin * d.x);
+        let stretch = (1.0 - near.point.kappa * y).max(0.1);
+        (near.s + x / stretch, y - near.point.kappa * x * x / 2.0)
+    };
+    let mut seen = Seen {
+        middle: frenet(body.pose.position()).0,
+        tail: f64::INFINITY,
+        right: f64::INFINITY,
+        left: f64::NEG_INFINITY,
+        speed: axis.dot(&body.velocity),
+    };
+    for vertex in &body.vertices {
+        let (s, l) = frenet(body.pose.to_world(*vertex));
+        seen.tail = seen.tail.min(s);
+        seen.right = seen.right.min(l);
+        seen.left = seen.left.max(l);
+    }
+    Some(seen)
+}
+
+/// The sample nearest to `point`: every eighth first, then all around the best of those.
+fn nearest_sample(samples: &[LineSample], point: Vec2) -> Option<&LineSample> {
+    let distance = |p: &LineSample| (Vec2::new(p.point.x, p.point.y) - point).norm_squared();
+    let best = |from: usize, to: usize, stride: usize| {
+        (from..to)
+            .step_by(stride)
+            .min_by(|a, b| distance(&samples[*a]).total_cmp(&distance(&samples[*b])))
+    };
+    let coarse = best(0, samples.len(), STRIDE)?;
+    let fine = best(
+        coarse.saturating_sub(STRIDE),
+        (coarse + STRIDE).min(samples.len()),
+        1,
+    )?;
+    samples.get(fine)
+}
