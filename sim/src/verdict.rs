@@ -75,8 +75,11 @@ pub struct Collision {
     pub class: CollisionClass,
     /// Whether the ego is to blame.
     pub at_fault: bool,
-    /// Difference of the speeds at contact, m/s.
+    /// Difference of the velocities just before the contact, m/s.
     pub delta_v: f64,
+    /// Whether full braking within the last seconds would have avoided it: an estimate.
+    #[serde(default)]
+    pub avoidable: bool,
 }
 
 /// Classes of collisions, as nuPlan draws them.

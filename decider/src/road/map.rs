@@ -101,9 +101,16 @@ impl RoadMap {
 
     /// How far `point` is from the road surface, m; 0 on it.
     ///
-    /// The surface is the union of all lanes that carry wheels (driving and stopping ones).
+    /// The surface is the union of all lanes that carry wheels (driving and stopping ones). Exact up to
+    /// 32 m, which is what anything farther off counts as.
     pub fn distance_off_road(&self, point: Vec2) -> f64 {
-        self.index.distance_off_road(&self.lanes, point)
+        self.index.distance_off_road(point)
+    }
+
+    /// The drivable lanes whose surface holds `point`, by handle, each with its driving direction there.
+    /// Several in a junction, none beside the lanes.
+    pub fn lanes_at(&self, point: Vec2) -> Vec<(LaneId, f64)> {
+        self.index.lanes_at(&self.lanes, point)
     }
 
     /// The nearest drivable lane within `radius` whose heading differs from `theta` by at most

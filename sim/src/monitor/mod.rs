@@ -1,0 +1,197 @@
+//! The monitor: judges a run from physics and geometry alone, metric by metric.
+//!
+//! It reads the world and the decisions and changes neither. Every physics step it looks for contacts; everything
+//! else is sampled at 10 Hz, the rate for which the field's thresholds are made. World frame, SI units; names and
+//! thresholds are those of nuPlan, of Apollo's pull-over check and of this project's metric set.
+//!
+//! Of one moment, the step is shown first and the tick after it: the driving is held against the decision under
+//! which it happened.
+
+mod avoidance;
+mod bounds;
+mod collision;
+mod decider;
+mod ending;
+mod labels;
+mod measure;
+mod motion;
+mod plan;
+mod progress;
+mod pull_over;
+mod road;
+mod savitzky_golay;
+mod score;
+mod standstill;
+mod summary;
+#[cfg(test)]
+mod tests;
+mod tracking;
+mod ttc;
+mod view;
+
+pub use view::{Motion, StepView, Traffic};
+
+use crate::verdict::{Ending, Metric, Verdict};
+use corridor_decider::decision::Decision;
+use corridor_decider::frame::Frame;
+use corridor_decider::reference_line::LineQuery;
+use corridor_scenarios::Scenario;
+use measure::Measure;
+use plan::Plan;
+use view::Sample;
+
+/// Time between two samples, s.
+const SAMPLE_PERIOD: f64 = 0.1;
+
+/// How early a step may come and still be the one of the sample, s: far above the error of adding up steps, far below
+/// a step.
+const TIME_TOLERANCE: f64 = 1e-6;
+
+/// Judges one run.
+#[derive(Clone, Debug)]
+pub struct Monitor {
+    scenario: Scenario,
+    names: Vec<String>,
+    plan: Option<Plan>,
+    now: f64,
+    samples: u32,
+    history: avoidance::History,
+    collision: collision::CollisionJudge,
+    road: road::RoadWatch,
+    progress: progress::ProgressWatch,
+    standstill: standstill::StandstillWatch,
+    decider: decider::DeciderWatch,
+    ttc: ttc::TtcWatch,
+    motion: motion::MotionWatch,
+    bounds: bounds::BoundWatch,
+    labels: labels::LabelWatch,
+    pull_over: pull_over::PullOverWatch,
+    tracking: tracking::TrackingWatch,
+    ending: ending::EndingWatch,
+}
+
+impl Monitor {
+    /// A monitor for one run of `scenario`.
+    pub fn new(scenario: &Scenario) -> Self {
+        Self {
+            names: scenario.obstacles.iter().map(|o| o.name.clone()).collect(),
+            plan: None,
+            now: 0.0,
+            samples: 0,
+            history: avoidance::History::default(),
+            collision: collision::CollisionJudge::default(),
+            road: road::RoadWatch::default(),
+            progress: progress::ProgressWatch::new(scenario),
+            standstill: standstill::StandstillWatch::default(),
+            decider: decider::DeciderWatch::default(),
+            ttc: ttc::TtcWatch::new(scenario),
+            motion: motion::MotionWatch::default(),
+            bounds: bounds::BoundWatch::default(),
+            labels: labels::LabelWatch::default(),
+            pull_over: pull_over::PullOverWatch::default(),
+            tracking: tracking::TrackingWatch::default(),
+            ending: ending::EndingWatch::default(),
+            scenario: scenario.clone(),
+        }
+    }
+
+    /// Takes in the world after one physics step.
+    pub fn step(&mut self, view: &StepView) {
+        self.now = view.time;
+        self.collision.step(&self.scenario, view, &self.history);
+        if !self.collision.collisions().is_empty() {
+            self.ending.end(Ending::Collision);
+        }
+        let next_sample = f64::from(self.samples + 1) * SAMPLE_PERIOD;
+        if view.time >= next_sample - TIME_TOLERANCE {
+            self.samples += 1;
+            self.sample(view);
+        }
+    }
+
+    /// Takes in a frame and what was decided on it.
+    pub fn tick(&mut self, frame: &Frame, decision: &Decision) {
+        let plan = Plan::new(frame, decision);
+        self.decider.tick(frame, decision, &plan);
+        self.bounds.tick(frame, self.plan.as_ref(), &plan);
+        self.labels.tick(frame, &plan);
+        if self.decider.first_fault().is_some() {
+            self.ending.end(Ending::DeciderFailed);
+        }
+        self.plan = Some(plan);
+    }
+
+    /// Takes in that the decider gave no answer at all: it panicked.
+    pub fn decider_failed(&mut self, time: f64, reason: &str) {
+        self.now = time;
+        self.decider.fail(time, reason.to_owned());
+        self.ending.end(Ending::DeciderFailed);
+    }
+
+    /// How the run ended, once it has.
+    pub fn is_over(&self) -> Option<Ending> {
+        self.ending.ending()
+    }
+
+    fn sample(&mut self, view: &StepView) {
+        let sample = Sample {
+            view: *view,
+            scenario: &self.scenario,
+            at: self.scenario.line.to_frenet(view.ego.pose.position()),
+            plan: self.plan.as_ref(),
+        };
+        self.history.sample(&sample);
+        self.road.sample(&sample);
+        self.progress.sample(&sample);
+        self.standstill.sample(&sample);
+        self.ttc.sample(&sample);
+        self.motion.sample(&sample);
+        self.bounds.sample(&sample);
+        self.pull_over.sample(&sample);
+        self.tracking.sample(&sample);
+        self.ending.sample(&sample, &self.progress, &self.pull_over);
+    }
+
+    /// The judgement. Its digest is left empty: whoever keeps the hashes fills it in. A run that was stopped before
+    /// its end counts as out of time.
+    pub fn verdict(&self) -> Verdict {
+        let ending = self.is_over().unwrap_or(Ending::Timeout);
+        let is_expected = ending::is_expected(&self.scenario, ending);
+        let metrics = self.metrics(is_expected);
+        let pass = is_expected && metrics.iter().all(|m| m.pass || !m.gate);
+        let collisions = self.collision.collisions().to_vec();
+        let fault = self.decider.first_fault();
+        Verdict {
+            pass,
+            ending,
+            summary: summary::sentence(pass, ending, self.now, &collisions, fault, &metrics),
+            duration: self.now,
+            metrics,
+            collisions,
+            outcomes: self.decider.outcomes(),
+            digest: String::new(),
+        }
+    }
+
+    /// Every metric, gates first, otherwise in the order of the parts.
+    fn metrics(&self, is_expected: bool) -> Vec<Metric> {
+        let completed = Measure::new("scenario_completed", Some(f64::from(u8::from(is_expected))));
+        let mut measures = self.collision.measures();
+        measures.extend(self.road.measures());
+        measures.extend(self.progress.measures());
+        measures.extend(self.standstill.measures());
+        measures.push(completed.at_least(1.0).gate());
+        measures.extend(self.decider.measures());
+        measures.extend(self.ttc.measures());
+        measures.extend(self.motion.measures());
+        measures.extend(self.bounds.measures());
+        measures.extend(self.labels.measures());
+        measures.extend(self.pull_over.measures(&self.scenario));
+        measures.extend(self.tracking.measures());
+        let named = measures.into_iter().map(|m| m.into_metric(&self.names));
+        let mut metrics: Vec<Metric> = named.collect();
+        metrics.push(score::nuplan_score(&metrics).into_metric(&self.names));
+        metrics.sort_by_key(|m| !m.gate);
+        metrics
+    }
+}

@@ -1,0 +1,78 @@
+//! `progress`, `progress_min`, `distance`: how far along the route the ego came.
+//!
+//! Metres along the scenario's line from the start. The wanted distance is the expectation's, else what is left of
+//! the line.
+
+use super::measure::Measure;
+use super::view::Sample;
+use corridor_decider::reference_line::LineQuery;
+use corridor_scenarios::Scenario;
+use corridor_scenarios::scenario::Expectation;
+
+/// Floor under both distances, m: with nuPlan's 2 m a parked ego would pass on every route up to 10 m.
+const FLOOR: f64 = 0.1;
+
+/// Smallest share of the wanted distance (nuPlan).
+const MINIMUM: f64 = 0.2;
+
+/// How near to the goal counts as there, m.
+const GOAL_TOLERANCE: f64 = 3.0;
+
+/// Watches the way made.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ProgressWatch {
+    start: f64,
+    wanted: f64,
+    is_goal: bool,
+    made: f64,
+}
+
+impl ProgressWatch {
+    pub(super) fn new(scenario: &Scenario) -> Self {
+        let start = scenario.line.to_frenet(scenario.ego.pose.position()).s;
+        let (wanted, is_goal) = match scenario.expect {
+            Expectation::Progress(distance) => (distance, true),
+            _ => (scenario.line.length() - start, false),
+        };
+        Self {
+            start,
+            wanted,
+            is_goal,
+            made: 0.0,
+        }
+    }
+
+    pub(super) fn sample(&mut self, sample: &Sample) {
+        self.made = sample.at.s - self.start;
+    }
+
+    /// Metres made since the start.
+    pub(super) fn made(&self) -> f64 {
+        self.made
+    }
+
+    pub(super) fn is_at_goal(&self) -> bool {
+        self.is_goal && self.made >= self.wanted - GOAL_TOLERANCE
+    }
+
+    fn ratio(&self) -> f64 {
+        if self.made < -FLOOR {
+            return 0.0;
+        }
+        (self.made.max(FLOOR) / self.wanted.max(FLOOR)).min(1.0)
+    }
+
+    pub(super) fn measures(&self) -> Vec<Measure> {
+        let ratio = Some(self.ratio());
+        let minimum = Measure::new("progress_min", ratio);
+        vec![
+            if self.is_goal {
+                minimum.at_least(MINIMUM).gate()
+            } else {
+                minimum
+            },
+            Measure::new("progress", ratio),
+            Measure::new("distance", Some(self.made)),
+        ]
+    }
+}
