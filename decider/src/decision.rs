@@ -1,5 +1,6 @@
 //! What one tick decides, and why.
 
+use crate::columns::Row;
 use crate::frame::ObstacleId;
 use crate::geometry::{Pose, Vec2};
 use crate::tasks::path_bounds::PathBound;
@@ -15,8 +16,10 @@ pub struct Decision {
     /// Place in `candidates` of the one that is driven; `None` when none can be.
     pub chosen: Option<usize>,
     /// The path inside the chosen bound.
+    #[serde(with = "crate::columns")]
     pub path: Vec<PathPoint>,
     /// The path with times: what the tracker follows.
+    #[serde(with = "crate::columns")]
     pub trajectory: Vec<TrajectoryPoint>,
     /// Why the car does not simply cruise on, if it does not.
     pub stop: Option<Stop>,
@@ -44,6 +47,7 @@ pub enum Assessment {
     /// It has a drivable path; another was preferred.
     Drivable {
         /// How far that path leads, m along the line.
+        #[serde(with = "crate::columns::number")]
         reach: f64,
     },
     /// No sampled path stays inside it, below the curvature limit and clear of obstacles.
@@ -69,7 +73,7 @@ pub enum Rejection {
 }
 
 /// A point of a path, at the rear axle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathPoint {
     /// Arc length along the path from its first point, m.
     pub distance: f64,
@@ -83,8 +87,27 @@ pub struct PathPoint {
     pub kappa: f64,
 }
 
+impl Row for PathPoint {
+    const NAMES: &'static [&'static str] = &["distance", "s", "l", "x", "y", "theta", "kappa"];
+
+    fn number(&self, column: usize) -> f64 {
+        let p = self.pose;
+        [self.distance, self.s, self.l, p.x, p.y, p.theta, self.kappa][column]
+    }
+
+    fn from_numbers(number: impl Fn(usize) -> f64) -> Self {
+        Self {
+            distance: number(0),
+            s: number(1),
+            l: number(2),
+            pose: Pose::new(number(3), number(4), number(5)),
+            kappa: number(6),
+        }
+    }
+}
+
 /// A point of the trajectory, at the rear axle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrajectoryPoint {
     /// Seconds from the frame's time.
     pub t: f64,
@@ -100,10 +123,40 @@ pub struct TrajectoryPoint {
     pub a: f64,
 }
 
+impl Row for TrajectoryPoint {
+    const NAMES: &'static [&'static str] = &["t", "distance", "x", "y", "theta", "kappa", "v", "a"];
+
+    fn number(&self, column: usize) -> f64 {
+        let p = self.pose;
+        [
+            self.t,
+            self.distance,
+            p.x,
+            p.y,
+            p.theta,
+            self.kappa,
+            self.v,
+            self.a,
+        ][column]
+    }
+
+    fn from_numbers(number: impl Fn(usize) -> f64) -> Self {
+        Self {
+            t: number(0),
+            distance: number(1),
+            pose: Pose::new(number(2), number(3), number(4)),
+            kappa: number(5),
+            v: number(6),
+            a: number(7),
+        }
+    }
+}
+
 /// Why the car slows down or stands.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stop {
     /// Arc length along the path at which the rear axle stops or stays behind, m.
+    #[serde(with = "crate::columns::number")]
     pub distance: f64,
     /// What for.
     pub cause: StopCause,

@@ -2,6 +2,7 @@
 //!
 //! A frame can be written to a file and read back, so any tick of any trace can be decided again alone.
 
+use crate::columns::Row;
 use crate::geometry::{ConvexPolygon, Pose, Vec2};
 use crate::reference_line::ReferenceLine;
 use crate::road::Side;
@@ -116,6 +117,7 @@ pub struct Obstacle {
     /// Whether it stands and is not expected to move.
     pub is_static: bool,
     /// Where it will probably be; empty for static ones.
+    #[serde(with = "crate::columns")]
     pub prediction: Vec<PredictedPose>,
 }
 
@@ -132,10 +134,25 @@ impl Obstacle {
 }
 
 /// Where an obstacle is expected at one time.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PredictedPose {
     /// Seconds from the frame's time.
     pub t: f64,
     /// Centre and heading then.
     pub pose: Pose,
+}
+
+impl Row for PredictedPose {
+    const NAMES: &'static [&'static str] = &["t", "x", "y", "theta"];
+
+    fn number(&self, column: usize) -> f64 {
+        [self.t, self.pose.x, self.pose.y, self.pose.theta][column]
+    }
+
+    fn from_numbers(number: impl Fn(usize) -> f64) -> Self {
+        Self {
+            t: number(0),
+            pose: Pose::new(number(1), number(2), number(3)),
+        }
+    }
 }

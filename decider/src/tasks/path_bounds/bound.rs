@@ -1,11 +1,15 @@
 //! A path bound: stations with a right and a left limit, and where each limit comes from.
 
+use super::columns::BoundColumns;
 use crate::frame::ObstacleId;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// A corridor for the rear axle along one reference line. Half the car's width is already taken off.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+///
+/// Written compactly: see [`BoundColumns`].
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "BoundColumns")]
 pub struct PathBound {
     /// The situation it is for.
     pub label: Label,
@@ -34,7 +38,7 @@ impl PathBound {
 }
 
 /// One station of a bound.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundPoint {
     /// Station along the reference line, m.
     pub s: f64,

@@ -5,6 +5,7 @@
 //! reference line, metres, with half the car's width already taken off.
 
 mod bound;
+mod columns;
 mod config;
 mod edges;
 mod gaps;
