@@ -1,9 +1,16 @@
 //! The closed loop: a world, a tracker, a monitor, and what records and repeats their runs.
 
 pub mod agents;
+mod clock;
+pub mod closed_loop;
+pub mod decider;
 pub mod monitor;
 pub mod perception;
 pub mod report;
+mod route;
+pub mod run;
+pub mod settings;
+mod story;
 pub mod sweep;
 pub mod trace;
 pub mod tracker;

@@ -1,0 +1,162 @@
+//! The closed loop. Start reading here: [`ClosedLoop::tick`] is what Corridor does.
+
+use crate::agents::Agents;
+use crate::clock::Clock;
+use crate::decider::Decider;
+use crate::monitor::{Monitor, Motion, StepView, Traffic};
+use crate::route::Route;
+use crate::settings::Settings;
+use crate::story::Story;
+use crate::trace::{Controls, TickRecord, TraceError};
+use crate::tracker::{Tracker, TrackerConfig};
+use crate::verdict::Verdict;
+use crate::world::{Fnv, World};
+use crate::perception;
+use corridor_decider::decision::{Decision, TrajectoryPoint};
+use corridor_decider::frame::{Frame, ObstacleId};
+use corridor_scenarios::Scenario;
+
+/// Takes in each finished tick: a trace writer, a test, or nobody.
+pub trait Sink {
+    /// Takes in one tick.
+    ///
+    /// # Errors
+    /// [`TraceError`] when it cannot be kept; the run stops then.
+    fn tick(&mut self, tick: &TickRecord) -> Result<(), TraceError>;
+}
+
+/// A sink that keeps nothing.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoSink;
+
+impl Sink for NoSink {
+    fn tick(&mut self, _: &TickRecord) -> Result<(), TraceError> {
+        Ok(())
+    }
+}
+
+/// One run of one scenario.
+pub struct ClosedLoop {
+    clock: Clock,
+    world: World,
+    agents: Agents,
+    route: Route,
+    decider: Decider,
+    tracker: Tracker,
+    monitor: Monitor,
+    story: Story,
+    sensor_range: f64,
+    digest: Fnv,
+}
+
+impl ClosedLoop {
+    /// The loop at the start of `scenario`.
+    pub fn new(scenario: &Scenario, settings: &Settings) -> Self {
+        let tracking = TrackerConfig::for_car(&scenario.vehicle, &settings.physics.dynamics);
+        Self {
+            clock: Clock::new(settings.tick, settings.physics.dt),
+            world: World::new(scenario, &settings.physics),
+            agents: Agents::new(scenario),
+            route: Route::new(scenario),
+            decider: Decider::new(scenario, settings),
+            tracker: Tracker::new(scenario.vehicle, tracking),
+            monitor: Monitor::new(scenario),
+            story: Story::new(scenario),
+            sensor_range: perception::SENSOR_RANGE,
+            digest: Fnv::new(),
+        }
+    }
+
+    /// Runs to the end and judges. Every tick goes to `sink`.
+    ///
+    /// # Errors
+    /// [`TraceError`] of the sink.
+    pub fn run(mut self, sink: &mut dyn Sink) -> Result<Verdict, TraceError> {
+        while self.monitor.is_over().is_none() {
+            let Some(tick) = self.tick() else { break };
+            sink.tick(&tick)?;
+        }
+        let digest = format!("{:016x}", self.digest.finish());
+        Ok(Verdict { digest, ..self.monitor.verdict() })
+    }
+
+    /// Advances the loop by one planning period. `None`: the decider gave no answer.
+    fn tick(&mut self) -> Option<TickRecord> {
+        let frame = self.observe();
+        let decision = match self.decider.decide(&frame) {
+            Ok(decision) => decision,
+            Err(reason) => {
+                self.monitor.decider_failed(frame.time, &reason);
+                return None;
+            }
+        };
+        self.monitor.tick(&frame, &decision);
+        let mut controls = Controls::default();
+        for step in 0..self.clock.steps_per_tick() {
+            controls = self.drive(&decision.trajectory, step);
+            if self.monitor.is_over().is_some() {
+                break;
+            }
+        }
+        self.clock.next_tick();
+        Some(self.record(frame, decision, controls))
+    }
+
+    /// What the sensors and the router tell the decider now.
+    fn observe(&mut self) -> Frame {
+        let ego = perception::localise(&self.world);
+        let time = self.clock.time();
+        Frame {
+            tick: self.clock.tick(),
+            time,
+            ego,
+            command: self.route.command(time),
+            cruise_speed: self.route.cruise_speed(),
+            lines: self.route.lines(&ego, time),
+            obstacles: perception::observe(&self.world, &self.agents, self.sensor_range),
+        }
+    }
+
+    /// One physics step along the trajectory.
+    fn drive(&mut self, trajectory: &[TrajectoryPoint], step: u32) -> Controls {
+        let ego = self.world.ego();
+        let controls = self.tracker.track(&ego, trajectory, self.clock.since_tick(step));
+        let moved = self.agents.advance(&ego, self.world.dt());
+        self.world.step(controls, moved);
+        let footprint = self.world.ego_footprint();
+        let overlapping: Vec<ObstacleId> = self.world.overlaps().collect();
+        self.monitor.step(&StepView {
+            time: self.clock.time() + self.clock.since_tick(step + 1),
+            ego: &self.world.ego(),
+            footprint: &footprint,
+            clearance: self.world.clearance(),
+            overlapping: &overlapping,
+            traffic: &self.world,
+        });
+        controls
+    }
+
+    fn record(&mut self, frame: Frame, decision: Decision, controls: Controls) -> TickRecord {
+        let hash = self.world.state_hash();
+        self.digest.word(hash);
+        let lines = self.route.places(&frame.lines);
+        TickRecord {
+            events: self.story.of(&frame, &decision, self.monitor.is_over(), self.world.overlaps()),
+            ego: self.world.ego(),
+            clearance: self.world.clearance(),
+            hash: format!("{hash:016x}"),
+            frame,
+            lines,
+            decision,
+            controls,
+        }
+    }
+}
+
+impl Traffic for World {
+    fn motion(&self, id: ObstacleId) -> Motion {
+        let body = &self.obstacles()[id.0 as usize];
+        Motion { pose: body.pose, velocity: body.velocity }
+    }
+}
+
