@@ -4,6 +4,7 @@
 //! [`Scenario`]. This crate knows roads and places; it knows neither physics nor the tick loop.
 
 pub mod import;
+pub mod maps;
 pub mod scenario;
 
 pub use scenario::Scenario;
