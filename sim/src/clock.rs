@@ -11,9 +11,17 @@ pub(crate) struct Clock {
 impl Clock {
     /// A clock whose planning period is the whole multiple of the step nearest to `period`.
     pub(crate) fn new(period: f64, step: f64) -> Self {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates; settings check it")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "saturates; settings check it"
+        )]
         let steps_per_tick = (period / step).round().max(1.0) as u32;
-        Self { tick: 0, steps_per_tick, step }
+        Self {
+            tick: 0,
+            steps_per_tick,
+            step,
+        }
     }
 
     /// Ticks begun before this one.

@@ -4,6 +4,7 @@ use crate::agents::Agents;
 use crate::clock::Clock;
 use crate::decider::Decider;
 use crate::monitor::{Monitor, Motion, StepView, Traffic};
+use crate::perception;
 use crate::route::Route;
 use crate::settings::Settings;
 use crate::story::Story;
@@ -11,7 +12,6 @@ use crate::trace::{Controls, TickRecord, TraceError};
 use crate::tracker::{Tracker, TrackerConfig};
 use crate::verdict::Verdict;
 use crate::world::{Fnv, World};
-use crate::perception;
 use corridor_decider::decision::{Decision, TrajectoryPoint};
 use corridor_decider::frame::{Frame, ObstacleId};
 use corridor_scenarios::Scenario;
@@ -77,7 +77,10 @@ impl ClosedLoop {
             sink.tick(&tick)?;
         }
         let digest = format!("{:016x}", self.digest.finish());
-        Ok(Verdict { digest, ..self.monitor.verdict() })
+        Ok(Verdict {
+            digest,
+            ..self.monitor.verdict()
+        })
     }
 
     /// Advances the loop by one planning period. `None`: the decider gave no answer.
@@ -141,7 +144,9 @@ impl ClosedLoop {
         self.digest.word(hash);
         let lines = self.route.places(&frame.lines);
         TickRecord {
-            events: self.story.of(&frame, &decision, self.monitor.is_over(), self.world.overlaps()),
+            events: self
+                .story
+                .of(&frame, &decision, self.monitor.is_over(), self.world.overlaps()),
             ego: self.world.ego(),
             clearance: self.world.clearance(),
             hash: format!("{hash:016x}"),
@@ -156,7 +161,9 @@ impl ClosedLoop {
 impl Traffic for World {
     fn motion(&self, id: ObstacleId) -> Motion {
         let body = &self.obstacles()[id.0 as usize];
-        Motion { pose: body.pose, velocity: body.velocity }
+        Motion {
+            pose: body.pose,
+            velocity: body.velocity,
+        }
     }
 }
-

@@ -41,14 +41,20 @@ impl Decider {
 
     /// Decides one frame; the error is what a panic said.
     pub(crate) fn decide(&mut self, frame: &Frame) -> Result<Decision, String> {
-        let Self { planner, context, fault } = self;
+        let Self {
+            planner,
+            context,
+            fault,
+        } = self;
         let decide = || match fault {
             Fault::None => planner.decide(frame, context),
             Fault::Mirrored => planner.decide(&mirrored(frame), context),
         };
         catch_unwind(AssertUnwindSafe(decide)).map_err(|panic| {
             let text = panic.downcast_ref::<String>().map(String::as_str);
-            text.or(panic.downcast_ref::<&str>().copied()).unwrap_or("no message").to_owned()
+            text.or(panic.downcast_ref::<&str>().copied())
+                .unwrap_or("no message")
+                .to_owned()
         })
     }
 }
@@ -56,7 +62,9 @@ impl Decider {
 /// The frame with every obstacle on the other side of the ego's line.
 fn mirrored(frame: &Frame) -> Frame {
     let mut frame = frame.clone();
-    let Some(line) = frame.lines.first().map(|first| first.line.clone()) else { return frame };
+    let Some(line) = frame.lines.first().map(|first| first.line.clone()) else {
+        return frame;
+    };
     let flip = |pose: &mut corridor_decider::geometry::Pose| {
         let SlPoint { s, l } = line.to_frenet(pose.position());
         let along = line.point(s).theta;
@@ -66,8 +74,16 @@ fn mirrored(frame: &Frame) -> Frame {
     };
     for obstacle in &mut frame.obstacles {
         flip(&mut obstacle.pose);
-        obstacle.prediction.iter_mut().for_each(|predicted| flip(&mut predicted.pose));
-        let outline: Vec<Vec2> = obstacle.shape.vertices().iter().map(|v| Vec2::new(v.x, -v.y)).collect();
+        obstacle
+            .prediction
+            .iter_mut()
+            .for_each(|predicted| flip(&mut predicted.pose));
+        let outline: Vec<Vec2> = obstacle
+            .shape
+            .vertices()
+            .iter()
+            .map(|v| Vec2::new(v.x, -v.y))
+            .collect();
         if let Some(shape) = ConvexPolygon::hull(&outline) {
             obstacle.shape = shape;
         }

@@ -40,18 +40,33 @@ impl Route {
 
     /// The command, once it has been given.
     pub(crate) fn command(&self, time: f64) -> Command {
-        if time >= self.command_time && !self.changed { self.command } else { Command::Cruise }
+        if time >= self.command_time && !self.changed {
+            self.command
+        } else {
+            Command::Cruise
+        }
     }
 
     /// The ego's line and, while a change of lane is wanted and not done, the one to change to.
     pub(crate) fn lines(&mut self, ego: &EgoState, time: f64) -> Vec<FrameLine> {
-        let own = |line: &Arc<ReferenceLine>| FrameLine { line: Arc::clone(line), is_change_lane: false };
-        let Some(target) = &self.target else { return vec![own(&self.line)] };
+        let own = |line: &Arc<ReferenceLine>| FrameLine {
+            line: Arc::clone(line),
+            is_change_lane: false,
+        };
+        let Some(target) = &self.target else {
+            return vec![own(&self.line)];
+        };
         self.changed |= is_in_lane(target, ego);
         match self.command(time) {
             _ if self.changed => vec![own(target)],
             Command::ChangeLane(_) => {
-                vec![own(&self.line), FrameLine { line: Arc::clone(target), is_change_lane: true }]
+                vec![
+                    own(&self.line),
+                    FrameLine {
+                        line: Arc::clone(target),
+                        is_change_lane: true,
+                    },
+                ]
             }
             _ => vec![own(&self.line)],
         }
@@ -60,12 +75,16 @@ impl Route {
     /// Places of a frame's lines among all lines, and whether each is a change of lane.
     pub(crate) fn places(&self, lines: &[FrameLine]) -> Vec<(usize, bool)> {
         let place = |line: &FrameLine| usize::from(!Arc::ptr_eq(&line.line, &self.line));
-        lines.iter().map(|line| (place(line), line.is_change_lane)).collect()
+        lines
+            .iter()
+            .map(|line| (place(line), line.is_change_lane))
+            .collect()
     }
 }
 
 /// Whether the ego's reference point is in the lane of a line.
 fn is_in_lane(line: &ReferenceLine, ego: &EgoState) -> bool {
     let at = line.to_frenet(ego.pose.position());
-    line.lane_width(at.s).is_some_and(|(left, right)| at.l <= left && at.l >= -right)
+    line.lane_width(at.s)
+        .is_some_and(|(left, right)| at.l <= left && at.l >= -right)
 }

@@ -19,14 +19,20 @@ const OUTLINE_STRIDE: usize = 4;
 
 /// Runs a scenario without keeping anything but the verdict.
 pub fn run(scenario: &Scenario, settings: &Settings) -> Verdict {
-    ClosedLoop::new(scenario, settings).run(&mut NoSink).expect("keeping nothing cannot fail")
+    ClosedLoop::new(scenario, settings)
+        .run(&mut NoSink)
+        .expect("keeping nothing cannot fail")
 }
 
 /// Runs a scenario and hands every tick to `sink`.
 ///
 /// # Errors
 /// [`TraceError`] of the sink.
-pub fn run_into(scenario: &Scenario, settings: &Settings, sink: &mut dyn Sink) -> Result<Verdict, TraceError> {
+pub fn run_into(
+    scenario: &Scenario,
+    settings: &Settings,
+    sink: &mut dyn Sink,
+) -> Result<Verdict, TraceError> {
     ClosedLoop::new(scenario, settings).run(sink)
 }
 
@@ -41,7 +47,10 @@ pub fn run_traced(
     settings: &Settings,
     path: &Path,
 ) -> Result<Verdict, TraceError> {
-    let mut sink = TraceSink(TraceWriter::create(path, &header(family, scenario, overrides, settings))?);
+    let mut sink = TraceSink(TraceWriter::create(
+        path,
+        &header(family, scenario, overrides, settings),
+    )?);
     let verdict = run_into(scenario, settings, &mut sink)?;
     sink.0.finish(&verdict)?;
     Ok(verdict)
@@ -66,7 +75,11 @@ pub fn header(family: &Family, scenario: &Scenario, overrides: &[String], settin
         seed: scenario.seed,
         overrides: overrides.to_vec(),
         vehicle: scenario.vehicle,
-        obstacle_names: scenario.obstacles.iter().map(|obstacle| obstacle.name.clone()).collect(),
+        obstacle_names: scenario
+            .obstacles
+            .iter()
+            .map(|obstacle| obstacle.name.clone())
+            .collect(),
         lines: Route::new(scenario).all_lines(),
         lanes: scenario.map.lanes().iter().map(outline).collect(),
         tick: settings.tick,
@@ -81,5 +94,10 @@ fn outline(lane: &Lane) -> LaneOutline {
         .map(|point| (point.offset(point.left), point.offset(-point.right)))
         .collect();
     let (left, right) = edges.into_iter().unzip();
-    LaneOutline { name: lane.name.clone(), kind: lane.kind, left, right }
+    LaneOutline {
+        name: lane.name.clone(),
+        kind: lane.kind,
+        left,
+        right,
+    }
 }

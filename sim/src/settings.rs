@@ -21,7 +21,12 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { decider: Config::default(), physics: PhysicsConfig::default(), tick: 0.1, fault: Fault::None }
+        Self {
+            decider: Config::default(),
+            physics: PhysicsConfig::default(),
+            tick: 0.1,
+            fault: Fault::None,
+        }
     }
 }
 
@@ -62,7 +67,9 @@ impl Settings {
     pub fn with(overrides: &[String]) -> Result<Self, SettingError> {
         let mut settings = Self::default();
         for text in overrides {
-            let (key, value) = text.split_once('=').ok_or_else(|| SettingError::Form(text.clone()))?;
+            let (key, value) = text
+                .split_once('=')
+                .ok_or_else(|| SettingError::Form(text.clone()))?;
             settings = settings.set(key.trim(), value.trim())?;
         }
         settings.check()?;
@@ -70,11 +77,21 @@ impl Settings {
     }
 
     fn set(self, key: &str, value: &str) -> Result<Self, SettingError> {
-        let wrong = |problem: String| SettingError::Value { key: key.to_owned(), value: value.to_owned(), problem };
+        let wrong = |problem: String| SettingError::Value {
+            key: key.to_owned(),
+            value: value.to_owned(),
+            problem,
+        };
         if key == "profile" {
             return match value {
-                "apollo" => Ok(Self { decider: Config::apollo(), ..self }),
-                "default" => Ok(Self { decider: Config::default(), ..self }),
+                "apollo" => Ok(Self {
+                    decider: Config::apollo(),
+                    ..self
+                }),
+                "default" => Ok(Self {
+                    decider: Config::default(),
+                    ..self
+                }),
                 _ => Err(wrong("profiles are `default` and `apollo`".to_owned())),
             };
         }
@@ -104,25 +121,33 @@ impl Settings {
 }
 
 /// The value at a dotted key.
-fn find<'a>(
-    tree: &'a mut serde_json::Value,
-    key: &str,
-) -> Result<&'a mut serde_json::Value, SettingError> {
+fn find<'a>(tree: &'a mut serde_json::Value, key: &str) -> Result<&'a mut serde_json::Value, SettingError> {
     let mut place = tree;
     let mut walked = String::from("settings");
     for part in key.split('.') {
-        let known: Vec<String> = place.as_object().map(|map| map.keys().cloned().collect()).unwrap_or_default();
+        let known: Vec<String> = place
+            .as_object()
+            .map(|map| map.keys().cloned().collect())
+            .unwrap_or_default();
         match place.get_mut(part) {
             Some(next) => place = next,
             None => {
                 return Err(SettingError::Unknown {
                     key: key.to_owned(),
                     parent: walked,
-                    known: if known.is_empty() { "nothing below it".to_owned() } else { known.join(", ") },
+                    known: if known.is_empty() {
+                        "nothing below it".to_owned()
+                    } else {
+                        known.join(", ")
+                    },
                 });
             }
         }
-        walked = if walked == "settings" { part.to_owned() } else { format!("{walked}.{part}") };
+        walked = if walked == "settings" {
+            part.to_owned()
+        } else {
+            format!("{walked}.{part}")
+        };
     }
     Ok(place)
 }
@@ -140,7 +165,14 @@ mod tests {
         let settings = set("decider.path_bounds.obstacle_lat_buffer=0.25").unwrap();
         assert!((settings.decider.path_bounds.obstacle_lat_buffer - 0.25).abs() < 1e-15);
         assert!(set("decider.path_bounds.quirks.pad_through_blocker=true").is_ok());
-        assert!(set("profile=apollo").unwrap().decider.path_bounds.quirks.greedy_sides);
+        assert!(
+            set("profile=apollo")
+                .unwrap()
+                .decider
+                .path_bounds
+                .quirks
+                .greedy_sides
+        );
         assert_eq!(set("fault=mirrored").unwrap().fault, Fault::Mirrored);
     }
 

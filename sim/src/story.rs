@@ -22,7 +22,11 @@ pub(crate) struct Story {
 impl Story {
     pub(crate) fn new(scenario: &Scenario) -> Self {
         Self {
-            names: scenario.obstacles.iter().map(|obstacle| obstacle.name.clone()).collect(),
+            names: scenario
+                .obstacles
+                .iter()
+                .map(|obstacle| obstacle.name.clone())
+                .collect(),
             label: None,
             outcome: Outcome::Normal,
             target: None,
@@ -39,7 +43,9 @@ impl Story {
         overlaps: impl Iterator<Item = ObstacleId>,
     ) -> Vec<Event> {
         let mut texts = Vec::new();
-        let label = decision.chosen.map(|place| decision.candidates[place].bound.label.to_string());
+        let label = decision
+            .chosen
+            .map(|place| decision.candidates[place].bound.label.to_string());
         if label != self.label {
             let text = match &label {
                 Some(label) => format!("drives `{label}`"),
@@ -52,7 +58,10 @@ impl Story {
             texts.push((EventKind::Fallback, format!("falls back: {:?}", decision.outcome)));
         }
         self.outcome = decision.outcome;
-        texts.extend(self.target_moved(decision).map(|text| (EventKind::PullOverTarget, text)));
+        texts.extend(
+            self.target_moved(decision)
+                .map(|text| (EventKind::PullOverTarget, text)),
+        );
         for id in overlaps {
             let name = self.names.get(id.0 as usize).map_or("?", String::as_str);
             texts.push((EventKind::Collision, format!("touches `{name}`")));
@@ -61,7 +70,14 @@ impl Story {
             self.is_over = true;
             texts.push((EventKind::Arrived, format!("the run ends: {ending:?}")));
         }
-        texts.into_iter().map(|(kind, text)| Event { time: frame.time, kind, text }).collect()
+        texts
+            .into_iter()
+            .map(|(kind, text)| Event {
+                time: frame.time,
+                kind,
+                text,
+            })
+            .collect()
     }
 
     fn target_moved(&mut self, decision: &Decision) -> Option<String> {
@@ -74,6 +90,9 @@ impl Story {
             }
             _ => return None,
         };
-        Some(format!("{text} at ({:.1}, {:.1})", place.position.x, place.position.y))
+        Some(format!(
+            "{text} at ({:.1}, {:.1})",
+            place.position.x, place.position.y
+        ))
     }
 }

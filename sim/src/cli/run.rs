@@ -38,13 +38,28 @@ impl Run {
 }
 
 fn print(verdict: &Verdict) {
-    println!("{} {}", if verdict.pass { "PASS" } else { "FAIL" }, verdict.summary);
+    println!(
+        "{} {}",
+        if verdict.pass { "PASS" } else { "FAIL" },
+        verdict.summary
+    );
     for metric in &verdict.metrics {
         let value = metric.value.map_or("-".to_owned(), |value| format!("{value:.3}"));
-        let threshold = metric.threshold.map_or(String::new(), |threshold| format!(" (threshold {threshold})"));
-        let mark = if metric.pass { " " } else if metric.gate { "!" } else { "*" };
+        let threshold = metric
+            .threshold
+            .map_or(String::new(), |threshold| format!(" (threshold {threshold})"));
+        let mark = if metric.pass {
+            " "
+        } else if metric.gate {
+            "!"
+        } else {
+            "*"
+        };
         let worst = metric.worst_t.map_or(String::new(), |t| format!(" at {t:.1} s"));
-        let whom = metric.worst_obstacle.as_ref().map_or(String::new(), |name| format!(" `{name}`"));
+        let whom = metric
+            .worst_obstacle
+            .as_ref()
+            .map_or(String::new(), |name| format!(" `{name}`"));
         println!("{mark} {:28} {value}{threshold}{worst}{whom}", metric.name);
     }
     println!("digest {}", verdict.digest);
