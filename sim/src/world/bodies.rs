@@ -109,13 +109,14 @@ pub(super) fn ego_collider(vehicle: &VehicleParams) -> ColliderBuilder {
     collider(&outline, Group::GROUP_1, Group::GROUP_2)
 }
 
+/// An obstacle's body; it takes no part until it is enabled.
 pub(super) fn obstacle_body(start: Pose, moves: bool) -> RigidBody {
     let builder = if moves {
         RigidBodyBuilder::kinematic_position_based()
     } else {
         RigidBodyBuilder::fixed()
     };
-    builder.pose(to_rapier(start)).build()
+    builder.pose(to_rapier(start)).enabled(false).build()
 }
 
 pub(super) fn obstacle_collider(shape: &ConvexPolygon) -> ColliderBuilder {

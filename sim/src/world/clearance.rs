@@ -53,8 +53,13 @@ impl Outline {
         self.middle = placed.transform_point(self.center);
     }
 
+    /// Where it is, in the engine's notation.
+    pub(super) fn placed(&self) -> ParryPose {
+        self.placed
+    }
+
     /// Whether the distance to `other` certainly exceeds `limit`.
-    fn is_beyond(&self, other: &Self, limit: f64) -> bool {
+    pub(super) fn is_beyond(&self, other: &Self, limit: f64) -> bool {
         let reach = limit + self.radius + other.radius;
         (self.middle - other.middle).length_squared() > reach * reach
     }

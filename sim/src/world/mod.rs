@@ -32,16 +32,29 @@ use rapier2d::geometry::ColliderHandle;
 use rapier2d::math::{Pose as RapierPose, Rot2, Vector};
 use rapier2d::pipeline::PhysicsWorld;
 
+/// An obstacle in the engine.
+struct EngineBody {
+    handle: RigidBodyHandle,
+    /// Whether it is near enough to take part.
+    engaged: bool,
+}
+
 /// Sub-steps of the contact solver. The ego's own motion needs one; a collision ends the run, so its aftermath
 /// need not be beautiful.
 const SOLVER_ITERATIONS: usize = 1;
+
+/// An obstacle takes part in the engine's work from this distance on, and until that one, m. Two cars that meet at
+/// 40 m/s each close 0.8 m in a step; nothing can be touched unseen. Bodies farther off would cost three times
+/// what the ego's own motion does and change nothing.
+const ENGAGE: f64 = 5.0;
+const RELEASE: f64 = 8.0;
 
 /// The ego and the obstacles, advanced in fixed steps.
 pub struct World {
     physics: PhysicsWorld,
     ego_body: RigidBodyHandle,
     ego_collider: ColliderHandle,
-    obstacle_bodies: Vec<RigidBodyHandle>,
+    obstacle_bodies: Vec<EngineBody>,
     obstacles: Vec<ObstacleBody>,
     outlines: Vec<Outline>,
     ego_outline: Outline,
@@ -95,6 +108,7 @@ impl World {
         for obstacle in &scenario.obstacles {
             world.insert(obstacle);
         }
+        world.engage_near_obstacles();
         world.proximity.update(&world.ego_outline, &world.outlines);
         world
     }
@@ -103,7 +117,8 @@ impl World {
         let start = agents::start_of(obstacle);
         let body = obstacle_body(start.pose, agents::can_move(obstacle));
         let (handle, _) = self.physics.insert(body, obstacle_collider(&obstacle.shape));
-        self.obstacle_bodies.push(handle);
+        let engaged = false;
+        self.obstacle_bodies.push(EngineBody { handle, engaged });
         self.outlines.push(Outline::new(&obstacle.shape, start.pose));
         self.obstacles.push(ObstacleBody {
             id: start.id,
@@ -120,6 +135,7 @@ impl World {
         self.actuators
             .advance(controls, &self.vehicle, &self.dynamics, self.dt);
         self.move_obstacles(moved);
+        self.engage_near_obstacles();
         self.push_ego();
         self.physics.step();
         self.read_ego();
@@ -191,7 +207,24 @@ impl World {
             obstacle.pose = to.pose;
             let pose = to_rapier(to.pose);
             self.outlines[place].move_to(to.pose, pose);
-            self.physics.bodies[self.obstacle_bodies[place]].set_next_kinematic_position(pose);
+            let body = &self.obstacle_bodies[place];
+            if body.engaged {
+                self.physics.bodies[body.handle].set_next_kinematic_position(pose);
+            }
+        }
+    }
+
+    /// Lets the obstacles near the ego take part in the engine's work, and no others.
+    fn engage_near_obstacles(&mut self) {
+        for (body, outline) in self.obstacle_bodies.iter_mut().zip(&self.outlines) {
+            let limit = if body.engaged { RELEASE } else { ENGAGE };
+            let near = !self.ego_outline.is_beyond(outline, limit);
+            if near != body.engaged {
+                let in_engine = &mut self.physics.bodies[body.handle];
+                in_engine.set_position(outline.placed(), true);
+                in_engine.set_enabled(near);
+                body.engaged = near;
+            }
         }
     }
 
@@ -240,7 +273,7 @@ impl World {
                 pair.collider1
             };
             let parent = self.physics.colliders.get(other).and_then(|c| c.parent());
-            let place = self.obstacle_bodies.iter().position(|b| Some(*b) == parent);
+            let place = self.obstacle_bodies.iter().position(|b| Some(b.handle) == parent);
             if let Some(obstacle) = place.map(|place| self.obstacles[place].id)
                 && !self.touched.contains(&obstacle)
             {
