@@ -15,6 +15,7 @@ mod expectation;
 mod family;
 pub mod import;
 mod map_source;
+pub mod maps;
 pub mod random;
 mod resolve;
 mod route;

@@ -168,12 +168,14 @@ fn a_pull_over_has_its_gap() {
 fn the_gap_at_the_kerb_decides_the_end_by_its_length() {
     // Lorries along the whole kerb but for one gap.
     let end = |gap: f64| {
-        let lorry =
-            |at: f64| format!("[[parked]]\nkind='truck'\nlength=40\nahead={at}\nfrom='right_edge'\nl=0.2\n");
+        let lorry = |from: f64, length: f64| {
+            let centre = from + length / 2.0;
+            format!("[[parked]]\nkind='truck'\nlength={length}\nahead={centre}\nfrom='right_edge'\nl=0.2\n")
+        };
         let text = format!(
             "{STREET}[command]\nkind='pull_over'\nahead=90\n[expect]\noutcome='pulled_over_by_gap'\n{}{}",
-            lorry(10.0 + 20.0),
-            lorry(10.0 + 40.0 + gap + 20.0)
+            lorry(5.0, 40.0),
+            lorry(45.0 + gap, 50.0)
         );
         scenario(&text).expect
     };
