@@ -2,6 +2,7 @@
 
 use crate::error::{Place, ScenarioError};
 use crate::import::opendrive;
+use crate::maps;
 use corridor_decider::road::RoadMap;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -64,7 +65,7 @@ impl MapCache {
                 .map_err(|e| not_found(format!("cannot read `{}`: {e}", path.display())))?;
             (key, text.into())
         } else {
-            let text = embedded(name).ok_or_else(|| {
+            let text = maps::embedded(name).ok_or_else(|| {
                 not_found(format!(
                     "expected one of {} or a path ending in `.xodr`",
                     own_maps()
@@ -96,14 +97,9 @@ fn read(text: Arc<str>) -> Result<LoadedMap, String> {
     })
 }
 
-fn embedded(_name: &str) -> Option<&'static str> {
-    None
-}
-
-const NAMES: [&str; 0] = [];
-
+/// The own maps, for a message.
 fn own_maps() -> String {
-    let names: Vec<String> = NAMES.iter().map(|name| format!("`{name}`")).collect();
+    let names: Vec<String> = maps::names().map(|name| format!("`{name}`")).collect();
     names.join(", ")
 }
 

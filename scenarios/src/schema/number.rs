@@ -190,7 +190,9 @@ impl<'de, R: Range> Visitor<'de> for NumberVisitor<R> {
     }
 
     fn visit_f64<E: de::Error>(self, value: f64) -> Result<Self::Value, E> {
-        Checked::<R>::new(value).map(|v| Number::fixed(v.value))
+        PlainVisitor::<R>(PhantomData)
+            .visit_f64(value)
+            .map(|v| Number::fixed(v.value))
     }
 
     fn visit_i64<E: de::Error>(self, value: i64) -> Result<Self::Value, E> {
@@ -258,47 +260,59 @@ fn finish<R: Range, E: de::Error>(law: Option<Law>, clamp: Option<Ends<R>>) -> R
     }
 }
 
-/// A plain number in the range `R`.
-#[derive(Deserialize)]
-#[serde(try_from = "f64", bound = "R: Range")]
-struct Checked<R> {
+/// A plain number in the range `R`. Read by a visitor of its own, so that a mistake inside a list has its place.
+struct Plain<R> {
     value: f64,
     range: PhantomData<R>,
 }
 
-impl<R: Range> Checked<R> {
-    fn new<E: de::Error>(value: f64) -> Result<Self, E> {
-        Self::try_from(value).map_err(E::custom)
+impl<'de, R: Range> Deserialize<'de> for Plain<R> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(PlainVisitor(PhantomData))
     }
 }
 
-impl<R: Range> TryFrom<f64> for Checked<R> {
-    type Error = String;
+struct PlainVisitor<R>(PhantomData<R>);
 
-    fn try_from(value: f64) -> Result<Self, String> {
-        R::problem(value).map_or(
-            Ok(Self {
+impl<R: Range> Visitor<'_> for PlainVisitor<R> {
+    type Value = Plain<R>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(R::WHAT)
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Self::Value, E> {
+        match R::problem(value) {
+            Some(problem) => Err(E::custom(problem)),
+            None => Ok(Plain {
                 value,
                 range: PhantomData,
             }),
-            Err,
-        )
+        }
+    }
+
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Self::Value, E> {
+        self.visit_f64(value as f64)
+    }
+
+    fn visit_u64<E: de::Error>(self, value: u64) -> Result<Self::Value, E> {
+        self.visit_f64(value as f64)
     }
 }
 
 /// `[low, high]`, ascending.
 #[derive(Deserialize)]
-#[serde(try_from = "[Checked<R>; 2]", bound = "R: Range")]
+#[serde(try_from = "[Plain<R>; 2]", bound = "R: Range")]
 struct Ends<R: Range> {
     low: f64,
     high: f64,
     range: PhantomData<R>,
 }
 
-impl<R: Range> TryFrom<[Checked<R>; 2]> for Ends<R> {
+impl<R: Range> TryFrom<[Plain<R>; 2]> for Ends<R> {
     type Error = String;
 
-    fn try_from([low, high]: [Checked<R>; 2]) -> Result<Self, String> {
+    fn try_from([low, high]: [Plain<R>; 2]) -> Result<Self, String> {
         if low.value > high.value {
             return Err(format!(
                 "`{}` to `{}` is no range: the smaller one first",
@@ -337,16 +351,16 @@ impl TryFrom<[f64; 2]> for Bell {
 
 /// A list to choose from, not empty.
 #[derive(Deserialize)]
-#[serde(try_from = "Vec<Checked<R>>", bound = "R: Range")]
+#[serde(try_from = "Vec<Plain<R>>", bound = "R: Range")]
 struct Choices<R: Range> {
     values: Vec<f64>,
     range: PhantomData<R>,
 }
 
-impl<R: Range> TryFrom<Vec<Checked<R>>> for Choices<R> {
+impl<R: Range> TryFrom<Vec<Plain<R>>> for Choices<R> {
     type Error = &'static str;
 
-    fn try_from(values: Vec<Checked<R>>) -> Result<Self, &'static str> {
+    fn try_from(values: Vec<Plain<R>>) -> Result<Self, &'static str> {
         if values.is_empty() {
             return Err("nothing to choose from: expected at least one number");
         }

@@ -51,7 +51,8 @@ impl KerbGap {
         let braking = speed * speed / (2.0 * COMFORTABLE_BRAKING) + speed * scene.draft.command_time;
         let strip = vehicle.width;
         Self {
-            strict: longest(scene, (scene.rear(), end + vehicle.length), strip),
+            // No car gets sideways to the edge within less than its own length.
+            strict: longest(scene, (scene.front(), end + vehicle.length), strip),
             roomy: longest(
                 scene,
                 (scene.front() + braking, end + BEYOND_DESTINATION),

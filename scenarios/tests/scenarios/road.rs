@@ -146,6 +146,7 @@ pub(crate) fn rejection(text: &str) -> Rejection {
     assert!(family.is_fixed());
     match family.draw(0) {
         Err(corridor_scenarios::DrawError::Impossible { reason, .. }) => reason,
-        other => panic!("expected a rejection, got {other:?}"),
+        Err(other) => panic!("{other}"),
+        Ok(_) => panic!("possible: {text}"),
     }
 }
