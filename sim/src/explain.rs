@@ -1,0 +1,268 @@
+//! One tick in words, for a terminal: what the decider saw, what it weighed, what it chose, and why.
+//!
+//! Offsets are metres left of the reference line; stations are metres along it. Bounds are for the rear axle,
+//! with half the car's width already taken off.
+
+pub(crate) mod words;
+
+use crate::trace::{TickRecord, Trace};
+use corridor_decider::decision::{Candidate, Decision};
+use corridor_decider::reference_line::LineQuery;
+use corridor_decider::tasks::path_bounds::{BoundPoint, EdgeCause, PathBound};
+use std::fmt::{self, Write};
+
+/// Events this near are told with a tick, s.
+const EVENTS_WITHIN: f64 = 1.0;
+
+/// The tick at `time` in words: the last that started then or before, else the first.
+pub fn tick(trace: &Trace, time: f64) -> String {
+    let Some(k) = trace.tick_at(time) else {
+        return "the trace holds no tick\n".to_owned();
+    };
+    let mut out = String::new();
+    write(&mut out, trace, &trace.ticks[k]).expect("writing to a string does not fail");
+    out
+}
+
+fn write(out: &mut String, trace: &Trace, tick: &TickRecord) -> fmt::Result {
+    let decision = &tick.decision;
+    let header = &trace.header;
+    writeln!(
+        out,
+        "{} (seed {}), tick {} at {:.2} s",
+        header.scenario, header.seed, tick.frame.tick, tick.frame.time
+    )?;
+    writeln!(out)?;
+    situation(out, trace, tick)?;
+    writeln!(out, "\ncandidates")?;
+    for (k, candidate) in decision.candidates.iter().enumerate() {
+        describe(out, trace, candidate, decision.chosen == Some(k))?;
+    }
+    if let Some(candidate) = decision.chosen.map(|k| &decision.candidates[k]) {
+        writeln!(out, "\nlimits of {}", candidate.bound.label)?;
+        stretches(out, trace, &candidate.bound, "left", |p| (p.left, p.l_max))?;
+        stretches(out, trace, &candidate.bound, "right", |p| (p.right, p.l_min))?;
+    }
+    writeln!(out)?;
+    conclusion(out, trace, decision)?;
+    events(out, trace, tick.frame.time)
+}
+
+/// Ego, command, line and what is around.
+fn situation(out: &mut String, trace: &Trace, tick: &TickRecord) -> fmt::Result {
+    let (frame, ego) = (&tick.frame, &tick.frame.ego);
+    let line = trace.line(tick);
+    let at = line.to_frenet(ego.pose.position());
+    writeln!(
+        out,
+        "ego         s {:.2} m, l {:+.2} m, v {:.2} m/s ({:.1} km/h), a {:+.2} m/s²",
+        at.s,
+        at.l,
+        ego.v,
+        ego.v * 3.6,
+        ego.a
+    )?;
+    writeln!(
+        out,
+        "command     {}, at most {:.1} m/s",
+        words::command(frame.command),
+        frame.cruise_speed
+    )?;
+    let change = if tick.lines[tick.decision.line].1 {
+        ", a change of lane"
+    } else {
+        ""
+    };
+    writeln!(
+        out,
+        "line        {} of {}{change}, {:.1} m long",
+        tick.decision.line + 1,
+        tick.lines.len(),
+        line.length()
+    )?;
+    let moving = frame.obstacles.iter().filter(|o| !o.is_static).count();
+    writeln!(
+        out,
+        "obstacles   {} seen, {moving} of them moving",
+        frame.obstacles.len()
+    )?;
+    if let Some((clearance, id)) = tick.clearance {
+        writeln!(
+            out,
+            "clearance   {clearance:.2} m to `{}` in this tick",
+            trace.obstacle(id)
+        )?;
+    }
+    Ok(())
+}
+
+/// One candidate: how long, how narrow, what became of it.
+fn describe(out: &mut String, trace: &Trace, candidate: &Candidate, chosen: bool) -> fmt::Result {
+    let bound = &candidate.bound;
+    let mark = if chosen { '*' } else { ' ' };
+    let label = bound.label.to_string();
+    writeln!(
+        out,
+        "{mark} {label:<22} {}",
+        words::assessment(trace, candidate.assessment)
+    )?;
+    let Some(narrow) = words::narrowest(bound) else {
+        return writeln!(out, "    no point in it");
+    };
+    let (start, end) = (bound.start_s(), bound.end_s());
+    write!(out, "    s {start:.1}…{end:.1} ({:.1} m)", end - start)?;
+    match bound.blocked_by {
+        Some(id) => writeln!(out, ", blocked by `{}`", trace.obstacle(id))?,
+        None => writeln!(out)?,
+    }
+    writeln!(
+        out,
+        "    narrowest at s {:.1}: {:.2} m, left: {} ({:+.2} m), right: {} ({:+.2} m)",
+        narrow.s,
+        narrow.l_max - narrow.l_min,
+        words::cause(trace, narrow.left),
+        narrow.l_max,
+        words::cause(trace, narrow.right),
+        narrow.l_min
+    )
+}
+
+/// One side of a bound by cause, with the range of the limit in each stretch.
+fn stretches(
+    out: &mut String,
+    trace: &Trace,
+    bound: &PathBound,
+    side: &str,
+    edge: impl Fn(&BoundPoint) -> (EdgeCause, f64),
+) -> fmt::Result {
+    for run in bound.points.chunk_by(|a, b| edge(a).0 == edge(b).0) {
+        let (first, last) = (&run[0], &run[run.len() - 1]);
+        let limits = || run.iter().map(|p| edge(p).1);
+        let (low, high) = (
+            limits().fold(f64::INFINITY, f64::min),
+            limits().fold(f64::NEG_INFINITY, f64::max),
+        );
+        let cause = words::cause(trace, edge(first).0);
+        write!(out, "    s {:6.1}…{:6.1}  {side:>5}: {cause}", first.s, last.s)?;
+        if high - low < 0.005 {
+            writeln!(out, " ({low:+.2} m)")?;
+        } else {
+            writeln!(out, " ({low:+.2} to {high:+.2} m)")?;
+        }
+    }
+    Ok(())
+}
+
+/// Path, stop reason, outcome.
+fn conclusion(out: &mut String, trace: &Trace, decision: &Decision) -> fmt::Result {
+    match (decision.path.first(), decision.path.last()) {
+        (Some(first), Some(last)) => {
+            let kappa = decision
+                .path
+                .iter()
+                .fold(0.0_f64, |most, p| most.max(p.kappa.abs()));
+            writeln!(
+                out,
+                "path        {:.1} m, s {:.1}…{:.1}, l {:+.2} to {:+.2} m, curvature up to {kappa:.3} 1/m",
+                last.distance - first.distance,
+                first.s,
+                last.s,
+                first.l,
+                last.l
+            )?;
+        }
+        _ => writeln!(out, "path        none")?,
+    }
+    if let Some(last) = decision.trajectory.last() {
+        writeln!(
+            out,
+            "trajectory  {:.1} s, {:.1} m, ends at {:.2} m/s",
+            last.t, last.distance, last.v
+        )?;
+    }
+    let stop = decision.stop.map(|stop| words::stop(trace, stop));
+    writeln!(out, "stop        {}", stop.as_deref().unwrap_or("none"))?;
+    if let Some(target) = decision.pull_over {
+        writeln!(
+            out,
+            "pull over   at ({:.1}, {:.1}), heading {:.2} rad",
+            target.position.x, target.position.y, target.theta
+        )?;
+    }
+    writeln!(out, "outcome     {}", words::outcome(decision.outcome))
+}
+
+/// What happened around `time`.
+fn events(out: &mut String, trace: &Trace, time: f64) -> fmt::Result {
+    let near = trace
+        .ticks
+        .iter()
+        .flat_map(|tick| &tick.events)
+        .filter(|event| (event.time - time).abs() <= EVENTS_WITHIN);
+    for (k, event) in near.enumerate() {
+        if k == 0 {
+            writeln!(out, "\nevents within {EVENTS_WITHIN:.0} s")?;
+        }
+        writeln!(
+            out,
+            "    {:.2} s  {}: {}",
+            event.time,
+            words::event(event.kind),
+            event.text
+        )?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::synthetic;
+
+    #[test]
+    fn a_tick_is_explained_whole() {
+        let trace = synthetic::trace(60, 4);
+        let text = tick(&trace, 1.2);
+        let expected = [
+            "tick 12 at 1.20 s",
+            "ego         s 30.80 m, l +0.00 m, v 9.00 m/s (32.4 km/h), a +0.00 m/s²",
+            "command     cruise, at most 10.0 m/s",
+            "obstacles   4 seen, 1 of them moving",
+            "  regular/self/          no path: it touches `van`\n    s 30.8…64.8 (34.0 m), blocked by `van`",
+            "* regular/left/reverse   chosen\n    s 30.8…130.3 (99.5 m)\n    \
+             narrowest at s 65.3: 3.40 m, left: far line of the borrowed lane (+4.10 m), \
+             right: obstacle `van` (+0.70 m)",
+            "    s   30.8… 130.3   left: far line of the borrowed lane (+4.10 m)\n    \
+             s   30.8…  64.8  right: lane line (-0.69 m)\n    \
+             s   65.3…  74.8  right: obstacle `van` (+0.70 m)\n    \
+             s   75.3… 130.3  right: lane line (-0.69 m)",
+            "stop        none",
+            "outcome     normal: a path inside a wanted bound",
+            "events within 1 s\n    1.20 s  label: regular/self/ -> regular/left/reverse around `van`",
+        ];
+        let mut rest = &text[..];
+        for part in expected {
+            let at = rest.find(part);
+            assert!(at.is_some(), "missing, or out of order:\n{part}\nin\n{text}");
+            rest = &rest[at.unwrap() + part.len()..];
+        }
+    }
+
+    #[test]
+    fn the_least_there_can_be_is_explained() {
+        let mut trace = synthetic::trace(1, 3);
+        let decision = &mut trace.ticks[0].decision;
+        decision.chosen = None;
+        decision.path.clear();
+        decision.trajectory.clear();
+        decision.candidates.truncate(1);
+        decision.candidates[0].bound.points.clear();
+        let text = tick(&trace, 99.0);
+        assert!(
+            text.contains("no point in it") && text.contains("path        none"),
+            "{text}"
+        );
+        trace.ticks.clear();
+        assert_eq!(tick(&trace, 0.0), "the trace holds no tick\n");
+    }
+}

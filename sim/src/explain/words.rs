@@ -1,0 +1,93 @@
+//! Words for what a decision holds: causes, assessments, commands, outcomes. For the terminal and the page.
+
+use crate::trace::{EventKind, Trace};
+use corridor_decider::decision::{Assessment, Outcome, Rejection, Stop, StopCause};
+use corridor_decider::frame::Command;
+use corridor_decider::road::Side;
+use corridor_decider::tasks::path_bounds::{BoundPoint, EdgeCause, PathBound};
+
+/// Where a limit comes from.
+pub(crate) fn cause(trace: &Trace, cause: EdgeCause) -> String {
+    match cause {
+        EdgeCause::Unbounded => "nothing".to_owned(),
+        EdgeCause::LaneLine => "lane line".to_owned(),
+        EdgeCause::BorrowedLane => "far line of the borrowed lane".to_owned(),
+        EdgeCause::RoadEdge => "road edge".to_owned(),
+        EdgeCause::Ego => "ego's own extent".to_owned(),
+        EdgeCause::Obstacle(id) => format!("obstacle `{}`", trace.obstacle(id)),
+        EdgeCause::LaneChangeZone => "lane-change zone".to_owned(),
+        EdgeCause::PullOverTarget => "pull-over target".to_owned(),
+    }
+}
+
+/// What became of a candidate.
+pub(crate) fn assessment(trace: &Trace, assessment: Assessment) -> String {
+    match assessment {
+        Assessment::Chosen => "chosen".to_owned(),
+        Assessment::Drivable { reach } => format!("drivable for {reach:.1} m, another was preferred"),
+        Assessment::NoPath(Rejection::LeavesBound) => "no path: it leaves the bound".to_owned(),
+        Assessment::NoPath(Rejection::Curvature) => "no path: it bends more than the steering can".to_owned(),
+        Assessment::NoPath(Rejection::Touches(id)) => {
+            format!("no path: it touches `{}`", trace.obstacle(id))
+        }
+        Assessment::NoPath(Rejection::TooShort) => "no path: too short to drive".to_owned(),
+        Assessment::Occupied(id) => format!("occupied by `{}`", trace.obstacle(id)),
+        Assessment::NotTried => "not tried".to_owned(),
+    }
+}
+
+/// Why the car does not simply drive on.
+pub(crate) fn stop(trace: &Trace, stop: Stop) -> String {
+    let what = match stop.cause {
+        StopCause::Blocked(id) => format!("blocked by `{}`", trace.obstacle(id)),
+        StopCause::Follow(id) => format!("follow `{}`", trace.obstacle(id)),
+        StopCause::Yield(id) => format!("yield to `{}`", trace.obstacle(id)),
+        StopCause::PullOver => "place to pull over".to_owned(),
+        StopCause::Destination => "end of the route".to_owned(),
+        StopCause::PathEnd => "end of the path".to_owned(),
+    };
+    format!("{what}, {:.1} m ahead", stop.distance)
+}
+
+/// What the ego is asked to do.
+pub(crate) fn command(command: Command) -> String {
+    match command {
+        Command::Cruise => "cruise".to_owned(),
+        Command::ChangeLane(Side::Left) => "change lane to the left".to_owned(),
+        Command::ChangeLane(Side::Right) => "change lane to the right".to_owned(),
+        Command::PullOver(at) => format!("pull over at ({:.1}, {:.1})", at.x, at.y),
+        Command::EmergencyPullOver => "pull over as soon as possible".to_owned(),
+    }
+}
+
+/// How a tick ended.
+pub(crate) fn outcome(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Normal => "normal: a path inside a wanted bound",
+        Outcome::PathFallback => "path fallback: a path inside the fallback bound",
+        Outcome::LastPath => "last path: the one of the tick before, braking",
+        Outcome::EmergencyStop => "emergency stop: full braking straight ahead",
+    }
+}
+
+/// Class of an event.
+pub(crate) fn event(kind: EventKind) -> &'static str {
+    match kind {
+        EventKind::LabelChanged => "label",
+        EventKind::Collision => "collision",
+        EventKind::OffRoad => "off road",
+        EventKind::Fallback => "fallback",
+        EventKind::PullOverTarget => "pull over",
+        EventKind::Arrived => "arrived",
+        EventKind::Note => "note",
+    }
+}
+
+/// The station at which a bound is narrowest, padding aside; the first of equals.
+pub(crate) fn narrowest(bound: &PathBound) -> Option<&BoundPoint> {
+    let count = bound.points.len() - bound.padding.min(bound.points.len());
+    let width = |p: &BoundPoint| p.l_max - p.l_min;
+    bound.points[..count]
+        .iter()
+        .min_by(|a, b| width(a).total_cmp(&width(b)))
+}
