@@ -1,7 +1,7 @@
 //! The smoothest offset profile inside a corridor.
 //!
 //! Minimises `Σ (l − l_target)² + λ² l'² + λ⁴ l''² + λ⁶ l'''²` over offsets a metre apart, derivatives by
-//! forward differences, the first three offsets given by the start state. Limits enter as stiff springs at
+//! forward differences that begin two metres behind the ego, where the start state says it came from. Limits enter as stiff springs at
 //! the stations that press against them; which ones do is found by Newton's method for the semismooth problem
 //! (an active-set iteration). Each step is one banded Cholesky factorisation, linear in the number of stations.
 
@@ -33,16 +33,13 @@ enum Press {
 }
 
 pub(super) fn solve(corridor: &Corridor) -> Result<Profile, Rejection> {
-    let n = corridor.len();
-    let [l0, dl0, ddl0] = corridor.start;
-    let start = [0.0, STEP, 2.0 * STEP].map(|s| l0 + dl0 * s + ddl0 * s * s / 2.0);
-    let mut offsets: Vec<f64> = start.to_vec();
-    let (matrix, rhs) = normal_equations(corridor, start);
-    let mut press = vec![Press::None; n - start.len()];
+    let past = past_offsets(corridor.start);
+    let (matrix, rhs) = normal_equations(corridor, past);
+    let mut press = vec![Press::None; rhs.len()];
     for _ in 0..MAX_STEPS {
         let (mut stiffened, mut pulled) = (matrix.clone(), rhs.clone());
         for (k, press) in press.iter().enumerate() {
-            if let Some(edge) = rest(corridor.limits[k + start.len()], *press) {
+            if let Some(edge) = rest(corridor.limits[k + 1], *press) {
                 stiffened[k][BAND] += STIFFNESS;
                 pulled[k] += STIFFNESS * edge;
             }
@@ -50,16 +47,21 @@ pub(super) fn solve(corridor: &Corridor) -> Result<Profile, Rejection> {
         cholesky_solve(&mut stiffened, &mut pulled);
         let next: Vec<Press> = pulled
             .iter()
-            .zip(&corridor.limits[start.len()..])
+            .zip(&corridor.limits[1..])
             .map(|(l, limits)| pressed(*l, *limits))
             .collect();
         if next == press {
-            offsets.extend(pulled);
-            return Ok(Profile::from_offsets(&offsets, corridor.start));
+            pulled.insert(0, corridor.start[0]);
+            return Ok(Profile::from_offsets(&pulled, corridor.start));
         }
         press = next;
     }
     Err(Rejection::LeavesBound)
+}
+
+/// Offsets two metres and one metre behind the start and at it, on the parabola of the start state.
+fn past_offsets([l, dl, ddl]: [f64; 3]) -> [f64; 3] {
+    [-2.0 * STEP, -STEP, 0.0].map(|s| l + dl * s + ddl * s * s / 2.0)
 }
 
 /// Where the spring of a limit rests: a little inside, but in the middle of a gap narrower than that.
@@ -83,28 +85,27 @@ fn pressed(l: f64, limits: (f64, f64)) -> Press {
     }
 }
 
-/// Matrix and right-hand side of the unlimited problem for the offsets after the given ones.
-fn normal_equations(corridor: &Corridor, start: [f64; 3]) -> (Vec<Row>, Vec<f64>) {
-    let n = corridor.len();
+/// Matrix and right-hand side of the unlimited problem for the offsets after the start.
+fn normal_equations(corridor: &Corridor, past: [f64; 3]) -> (Vec<Row>, Vec<f64>) {
+    let free = corridor.len() - 1;
     let square = corridor.smoothing_length * corridor.smoothing_length / (STEP * STEP);
     let differences: [(&[f64], f64); 3] = [
         (&[-1.0, 1.0], square),
         (&[1.0, -2.0, 1.0], square * square),
         (&[-1.0, 3.0, -3.0, 1.0], square * square * square),
     ];
-    let free = n - start.len();
     let mut matrix = vec![[0.0, 0.0, 0.0, 1.0]; free];
     let mut rhs = vec![corridor.target_l; free];
     for (stencil, weight) in differences {
-        for first in 0..=n - stencil.len() {
+        for first in past.len() + 1 - stencil.len()..=past.len() + free - stencil.len() {
             for (a, ca) in stencil.iter().enumerate() {
-                let Some(row) = (first + a).checked_sub(start.len()) else {
+                let Some(row) = (first + a).checked_sub(past.len()) else {
                     continue;
                 };
                 for (b, cb) in stencil[..=a].iter().enumerate() {
-                    match (first + b).checked_sub(start.len()) {
+                    match (first + b).checked_sub(past.len()) {
                         Some(column) => matrix[row][BAND + column - row] += weight * ca * cb,
-                        None => rhs[row] -= weight * ca * cb * start[first + b],
+                        None => rhs[row] -= weight * ca * cb * past[first + b],
                     }
                 }
             }
@@ -160,7 +161,7 @@ mod tests {
     #[test]
     fn the_banded_solve_agrees_with_a_dense_one() {
         let corridor = corridor(vec![(-2.0, 2.0); 40], [0.7, 0.05, -0.01]);
-        let (matrix, rhs) = normal_equations(&corridor, [0.7, 0.745, 0.78]);
+        let (matrix, rhs) = normal_equations(&corridor, past_offsets(corridor.start));
         let n = rhs.len();
         let dense = DMatrix::from_fn(n, n, |i, j| {
             let (i, j) = (i.max(j), i.min(j));
