@@ -23,6 +23,9 @@ const CLOSED: f64 = 1e-3;
 /// A driving lane of a smaller mean width that nothing is linked to is a bay beside the road, m.
 const BAY_WIDTH: f64 = 2.0;
 
+/// A driving lane of a larger mean width that nothing is linked to is a parking lot, m.
+const LOT_WIDTH: f64 = 8.0;
+
 /// Everything that grows while the roads are walked.
 struct Builder<'a, 'n> {
     topology: &'a Topology,
@@ -127,7 +130,8 @@ impl Builder<'_, '_> {
             let bay =
                 record.kind == LaneKind::Driving && is_bay(cuts, lane, self.topology.is_linked(first + lane));
             if bay {
-                let what = "a driving lane that opens and closes again is taken as parking bays";
+                let what =
+                    "a driving lane that leads nowhere and is no lane by its width is taken as parking";
                 self.notes.add(what, record.place, || {
                     format!("road `{}` lane {}", road.id, record.id)
                 });
@@ -219,13 +223,13 @@ fn width(cut: &CrossSection, lane: usize) -> f64 {
     cut.edges[lane][0] - cut.edges[lane + 1][0]
 }
 
-/// Whether a driving lane is a row of parking bays: closed at both ends, closed in between, or a narrow strip that
-/// nothing leads to. A lane that only opens or only closes is a taper.
+/// Whether a driving lane is a row of parking bays or a lot: it opens and closes, or nothing is linked to it and
+/// it is too narrow or too wide for a lane. A lane that only opens or only closes is a taper.
 fn is_bay(cuts: &[CrossSection], lane: usize, linked: bool) -> bool {
     let open: Vec<bool> = cuts.iter().map(|cut| width(cut, lane) >= CLOSED).collect();
     let closings = open.windows(2).filter(|pair| pair[0] && !pair[1]).count();
     let openings = open.windows(2).filter(|pair| !pair[0] && pair[1]).count();
     let mean = cuts.iter().map(|cut| width(cut, lane)).sum::<f64>() / cuts.len() as f64;
     let toggles = openings > 0 && closings > 0;
-    toggles || (mean < BAY_WIDTH && !linked)
+    toggles || (!linked && !(BAY_WIDTH..=LOT_WIDTH).contains(&mean))
 }

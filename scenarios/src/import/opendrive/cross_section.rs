@@ -8,8 +8,8 @@ use crate::import::ImportError;
 /// Distance of cross-sections on a straight road, m.
 const SPACING: f64 = 0.5;
 
-/// Largest turn of the reference line between cross-sections, rad. With [`SPACING`] it keeps chords within 1 mm of
-/// bends down to 3 m of radius, and the cubic through them within a micrometre.
+/// Largest turn of the reference line between cross-sections, rad: in sharp bends it keeps chords within 3 mm of
+/// the line, and cubics with the right tangents within a micrometre.
 const TURN: f64 = 0.05;
 
 /// Cross-sections are never closer than this, m, however sharp a cusp is.

@@ -24,6 +24,9 @@ mod surface;
 mod topology;
 mod xml;
 
+#[cfg(test)]
+mod tests;
+
 use super::ImportError;
 use corridor_decider::road::RoadMap;
 use notes::Notes;

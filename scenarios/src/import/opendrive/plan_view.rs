@@ -21,6 +21,9 @@ const MAX_CURVATURE: f64 = 100.0;
 /// Joints that miss each other by more are told, m.
 const NOTED_GAP: f64 = 0.01;
 
+/// ... and by more than this make the road unusable, m: the distance within which lanes must meet.
+const MAX_GAP: f64 = 0.5;
+
 /// The road's length and its pieces by ascending station.
 pub(super) fn read(road: Element<'_>, notes: &mut Notes<'_>) -> Result<(f64, Vec<Piece>), ImportError> {
     let length = checked_length(road)?;
@@ -49,7 +52,15 @@ pub(super) fn read(road: Element<'_>, notes: &mut Notes<'_>) -> Result<(f64, Vec
     }
     for pair in pieces.windows(2) {
         let (from, to) = (pair[0].at(pair[0].end()), pair[1].start);
-        if libm::hypot(to.x - from.x, to.y - from.y) > NOTED_GAP {
+        let gap = libm::hypot(to.x - from.x, to.y - from.y);
+        if gap > MAX_GAP {
+            let problem = format!(
+                "has a reference line that jumps by {gap:.2} m at s = {:.2}",
+                pair[1].s
+            );
+            return Err(view.error(problem, format!("pieces that meet within {MAX_GAP} m")));
+        }
+        if gap > NOTED_GAP {
             notes.add("a gap in the reference line", road.place(), || subject(road));
         }
     }
