@@ -2,6 +2,8 @@
 
 pub mod agents;
 pub mod perception;
+#[cfg(test)]
+pub(crate) mod testing;
 pub mod trace;
 pub mod tracker;
 pub mod verdict;
