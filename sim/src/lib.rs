@@ -13,6 +13,8 @@ pub mod run;
 pub mod settings;
 mod story;
 pub mod sweep;
+#[cfg(test)]
+pub(crate) mod testing;
 pub mod trace;
 pub mod tracker;
 pub mod verdict;

@@ -132,11 +132,16 @@ fn seen_from_line(line: &ReferenceLine, from: f64, body: &Body) -> Option<Seen> 
 
 /// The sample nearest to `point`: every eighth first, then all around the best of those.
 fn nearest_sample(samples: &[LineSample], point: Vec2) -> Option<&LineSample> {
-    let distance = |p: &LineSample| (Vec2::new(p.point.x, p.point.y) - point).norm_squared();
     let best = |from: usize, to: usize, stride: usize| {
-        (from..to)
-            .step_by(stride)
-            .min_by(|a, b| distance(&samples[*a]).total_cmp(&distance(&samples[*b])))
+        let mut best = (f64::INFINITY, None);
+        for k in (from..to).step_by(stride) {
+            let at = &samples[k].point;
+            let distance = (Vec2::new(at.x, at.y) - point).norm_squared();
+            if distance < best.0 {
+                best = (distance, Some(k));
+            }
+        }
+        best.1
     };
     let coarse = best(0, samples.len(), STRIDE)?;
     let fine = best(

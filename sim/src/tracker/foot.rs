@@ -6,6 +6,9 @@ use corridor_decider::geometry::{Pose, Vec2, angle, cross};
 /// Points nearer together than this are one place, m: a trajectory at rest repeats its pose.
 const SAME_PLACE: f64 = 1e-3;
 
+/// How far a trajectory's end goes on bent, m: the car may be a little behind its first point or past its last.
+const END_ARC: f64 = 1.0;
+
 /// A trajectory at one time, linear between its points, held before the first and after the last.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moment {
@@ -84,14 +87,17 @@ impl Foot {
         }
     }
 
-    /// The foot on the straight line through one point.
+    /// The foot near an end of the trajectory, which goes on there with the end's curvature, and farther off
+    /// straight.
     fn beside(point: &TrajectoryPoint, chord: usize, place: Vec2) -> Self {
         let local = point.pose.to_local(place);
+        let bent = local.x.clamp(-END_ARC, END_ARC);
+        let turn = point.kappa * bent;
         Self {
             chord,
             distance: point.distance + local.x,
-            l: local.y,
-            theta: point.pose.theta,
+            l: local.y - turn * (local.x - bent / 2.0),
+            theta: angle::wrap(point.pose.theta + turn),
             kappa: point.kappa,
         }
     }
