@@ -1,6 +1,8 @@
 //! When a run is over, and how it ended. Judged at the sampling rate, except for collisions.
 
+use super::TIME_TOLERANCE;
 use super::measure::LongestSpan;
+use super::plan::Plan;
 use super::progress::ProgressWatch;
 use super::pull_over::{PullOverWatch, is_pull_over};
 use super::view::Sample;
@@ -61,7 +63,6 @@ impl EndingWatch {
             .in_target_lane
             .sample(is_in_target_lane(sample), sample.time());
         let standing = self.standing.sample(sample.ego().v.abs() < STANDS, sample.time());
-        self.note_answer(sample);
         let expect = sample.scenario.expect;
         let is_blocked = || {
             progress.made() >= APPROACHED && gap_ahead(sample).is_some_and(|gap| is_within(gap, BLOCKER_GAP))
@@ -76,7 +77,7 @@ impl EndingWatch {
             Ending::StoodStill
         } else if expect == Expectation::Refusal && self.is_refused(sample) {
             Ending::Refused
-        } else if sample.time() >= sample.scenario.timeout {
+        } else if is_out_of_time(sample) {
             Ending::Timeout
         } else {
             return;
@@ -85,9 +86,8 @@ impl EndingWatch {
     }
 
     /// Remembers whether the command was ever taken up.
-    fn note_answer(&mut self, sample: &Sample) {
-        let Some(plan) = sample.plan else { return };
-        if plan.command != sample.scenario.command || plan.command == Command::Cruise {
+    pub(super) fn tick(&mut self, scenario: &Scenario, plan: &Plan) {
+        if plan.command != scenario.command || plan.command == Command::Cruise {
             return;
         }
         self.asked_since.get_or_insert(plan.time);
@@ -106,8 +106,12 @@ impl EndingWatch {
             Command::PullOver(place) => sample.scenario.line.to_frenet(place).s < sample.at.s,
             _ => false,
         };
-        is_past || sample.time() - since >= REFUSAL_TIME || sample.time() >= sample.scenario.timeout
+        is_past || sample.time() - since >= REFUSAL_TIME || is_out_of_time(sample)
     }
+}
+
+fn is_out_of_time(sample: &Sample) -> bool {
+    sample.time() >= sample.scenario.timeout - TIME_TOLERANCE
 }
 
 /// Whether `ending` is what the scenario expects.

@@ -115,6 +115,7 @@ impl Monitor {
         self.decider.tick(frame, decision, &plan);
         self.bounds.tick(frame, self.plan.as_ref(), &plan);
         self.labels.tick(frame, &plan);
+        self.ending.tick(&self.scenario, &plan);
         if self.decider.first_fault().is_some() {
             self.ending.end(Ending::DeciderFailed);
         }

@@ -1,1 +1,7 @@
+//! Hand-made situations, one group of metrics a file.
 
+mod collisions;
+mod decisions;
+mod driving;
+mod endings;
+mod fixture;

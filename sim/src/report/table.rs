@@ -1,0 +1,199 @@
+//! The report as a table for a terminal. Everything it says it says in words; colour only repeats it.
+
+use super::{RunResult, ScenarioSummary, SweepReport, SweepRow};
+use std::fmt::Write;
+use std::io::IsTerminal;
+
+/// Failures listed in full; more are counted. What scrolls away is not read.
+const FAILURES_SHOWN: usize = 20;
+
+const RED: &str = "\u{1b}[31m";
+const GREEN: &str = "\u{1b}[32m";
+const PLAIN: &str = "\u{1b}[0m";
+
+/// Whether to colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colour {
+    /// With ANSI codes.
+    Always,
+    /// Plain text.
+    Never,
+}
+
+impl Colour {
+    /// Colour where standard output is a terminal and `NO_COLOR` is not set (no-color.org).
+    pub fn from_env() -> Self {
+        let forbidden = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+        if forbidden || !std::io::stdout().is_terminal() {
+            Self::Never
+        } else {
+            Self::Always
+        }
+    }
+
+    fn paint(self, code: &str, text: &str) -> String {
+        match self {
+            Self::Always => format!("{code}{text}{PLAIN}"),
+            Self::Never => text.to_owned(),
+        }
+    }
+}
+
+/// Headings of the columns; the first is left-aligned, the others right-aligned.
+const HEADINGS: [&str; 12] = [
+    "scenario",
+    "runs",
+    "passed",
+    "broken",
+    "collisions",
+    "at fault",
+    "off road",
+    "progress",
+    "pulled over",
+    "failures <",
+    "worst seed",
+    "slowest seed",
+];
+
+/// The table, the failures with the commands that repeat them, and the digest.
+pub fn to_table(report: &SweepReport, colour: Colour) -> String {
+    let scenarios = report.scenarios();
+    let mut text = grid(&scenarios, colour);
+    text.push_str(&failures(report, colour));
+    text.push_str(&totals(report, colour));
+    text
+}
+
+fn cells(summary: &ScenarioSummary) -> [String; 12] {
+    let seed = |seed: Option<u64>| seed.map_or("-".to_owned(), |s| s.to_string());
+    let pull_overs = &summary.pull_overs;
+    [
+        summary.scenario.clone(),
+        summary.runs.to_string(),
+        summary.passed.to_string(),
+        summary.broken.to_string(),
+        summary.collisions.to_string(),
+        summary.at_fault.to_string(),
+        summary.off_road.to_string(),
+        summary
+            .progress
+            .map_or("-".to_owned(), |p| format!("{:.0} %", p * 100.0)),
+        if pull_overs.asked == 0 {
+            "-".to_owned()
+        } else {
+            format!("{}/{}", pull_overs.done, pull_overs.asked)
+        },
+        percentage(summary.failure_rate_bound),
+        seed(summary.worst_seed),
+        seed(summary.slowest_seed),
+    ]
+}
+
+/// A share in percent with two significant digits; a bound is rounded up.
+fn percentage(share: f64) -> String {
+    let percent = share * 100.0;
+    let digits = if percent >= 10.0 {
+        0
+    } else if percent >= 1.0 {
+        1
+    } else if percent >= 0.1 {
+        2
+    } else {
+        3
+    };
+    let scale = [1.0, 10.0, 100.0, 1000.0][digits];
+    // Rounding up must not lift what is exact but for its last bit.
+    let up = (percent * scale - 1e-9).ceil() / scale;
+    format!("{up:.digits$} %")
+}
+
+fn grid(scenarios: &[ScenarioSummary], colour: Colour) -> String {
+    let rows: Vec<[String; 12]> = scenarios.iter().map(cells).collect();
+    let width = |column: usize| {
+        let longest = rows.iter().map(|row| row[column].chars().count()).max();
+        longest.unwrap_or(0).max(HEADINGS[column].len())
+    };
+    let widths: Vec<usize> = (0..HEADINGS.len()).map(width).collect();
+    let mut text = line(HEADINGS.iter().copied(), &widths);
+    for (row, summary) in rows.iter().zip(scenarios) {
+        let code = if summary.passed == summary.runs {
+            GREEN
+        } else {
+            RED
+        };
+        let line = line(row.iter().map(String::as_str), &widths);
+        text.push_str(&colour.paint(code, line.trim_end_matches('\n')));
+        text.push('\n');
+    }
+    text
+}
+
+fn line<'a>(cells: impl Iterator<Item = &'a str>, widths: &[usize]) -> String {
+    let mut text = String::new();
+    for (k, (cell, width)) in cells.zip(widths).enumerate() {
+        // Writing to a string cannot fail.
+        let _ = if k == 0 {
+            write!(text, "{cell:<width$}")
+        } else {
+            write!(text, "  {cell:>width$}")
+        };
+    }
+    text.push('\n');
+    text
+}
+
+fn failures(report: &SweepReport, colour: Colour) -> String {
+    let mut text = String::new();
+    for row in report.failures().take(FAILURES_SHOWN) {
+        let _ = write!(
+            text,
+            "\n{} {} seed {}: {}\n  again: {}\n",
+            colour.paint(RED, word(row)),
+            row.scenario,
+            row.seed,
+            row.failure().unwrap_or_default().trim_start_matches("failed: "),
+            row.replay
+        );
+    }
+    let hidden = report.failures().count().saturating_sub(FAILURES_SHOWN);
+    if hidden > 0 {
+        let _ = write!(
+            text,
+            "\n{hidden} more failures are in the JSON and JUnit reports\n"
+        );
+    }
+    text
+}
+
+fn word(row: &SweepRow) -> &'static str {
+    match row.result {
+        RunResult::Judged(_) => "FAILED",
+        RunResult::Broken(_) => "BROKEN",
+    }
+}
+
+fn totals(report: &SweepReport, colour: Colour) -> String {
+    let runs = report.rows().len();
+    let failed = report.failures().count();
+    let result = if failed == 0 {
+        colour.paint(GREEN, &format!("all {runs} runs passed"))
+    } else {
+        colour.paint(RED, &format!("{failed} of {runs} runs did not pass"))
+    };
+    let mut text = format!("\n{result}");
+    let rejected = report.rejected();
+    if !rejected.is_empty() {
+        let total: u64 = rejected.values().sum();
+        let reasons: Vec<String> = rejected
+            .iter()
+            .map(|(reason, n)| format!("{n} {reason}"))
+            .collect();
+        let _ = write!(text, "; {total} draws rejected ({})", reasons.join(", "));
+    }
+    let _ = write!(
+        text,
+        "\n\"failures <\" is the upper bound of the failure rate at 95 % confidence\ndigest {}\n",
+        report.digest()
+    );
+    text
+}
