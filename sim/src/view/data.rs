@@ -1,0 +1,118 @@
+//! Everything that the page gets to draw.
+
+use super::line::{LaneData, LineData};
+use super::series::{self, Series};
+use super::thin;
+use super::tick::{Pools, TickData};
+use crate::explain::words;
+use crate::trace::Trace;
+use crate::verdict::Verdict;
+use corridor_decider::geometry::Vec2;
+use serde::Serialize;
+use serde_json::value::RawValue;
+
+/// The data of a page.
+#[derive(Serialize)]
+pub(super) struct Page<'a> {
+    scenario: &'a str,
+    seed: String,
+    build: &'a str,
+    source: &'a str,
+    overrides: &'a [String],
+    truncated: bool,
+    /// Planning period, s.
+    tick: f64,
+    /// All positions are metres from here.
+    origin: [f64; 2],
+    vehicle: Vehicle,
+    /// Names of the obstacles.
+    names: &'a [String],
+    lanes: Vec<LaneData>,
+    lines: Vec<LineData>,
+    ticks: Vec<TickData>,
+    obstacles: Vec<Box<RawValue>>,
+    labels: Vec<String>,
+    texts: Vec<String>,
+    series: Series,
+    events: Vec<EventData<'a>>,
+    verdict: &'a Option<Verdict>,
+}
+
+/// The ego's body around its rear axle, m.
+#[derive(Serialize)]
+struct Vehicle {
+    front: f64,
+    back: f64,
+    half_width: f64,
+    wheel_base: f64,
+}
+
+#[derive(Serialize)]
+struct EventData<'a> {
+    t: f64,
+    kind: &'static str,
+    text: &'a str,
+}
+
+impl<'a> Page<'a> {
+    pub(super) fn new(trace: &'a Trace) -> Self {
+        let header = &trace.header;
+        let origin = origin(trace);
+        let mut pools = Pools::default();
+        let ticks = (trace.ticks.iter())
+            .map(|tick| TickData::new(trace, tick, origin, &mut pools))
+            .collect();
+        let raw = |text| RawValue::from_string(text).expect("it was written as JSON");
+        Self {
+            scenario: &header.scenario,
+            // As text: JavaScript would round it.
+            seed: header.seed.to_string(),
+            build: &header.build,
+            source: &header.source,
+            overrides: &header.overrides,
+            truncated: trace.truncated,
+            tick: header.tick,
+            origin: [origin.x, origin.y],
+            vehicle: Vehicle {
+                front: header.vehicle.front_edge_to_center,
+                back: header.vehicle.back_edge_to_center,
+                half_width: header.vehicle.half_width(),
+                wheel_base: header.vehicle.wheel_base,
+            },
+            names: &header.obstacle_names,
+            lanes: header
+                .lanes
+                .iter()
+                .map(|lane| LaneData::new(lane, origin))
+                .collect(),
+            lines: header
+                .lines
+                .iter()
+                .map(|line| LineData::new(line, origin))
+                .collect(),
+            ticks,
+            obstacles: pools.obstacles.into_texts().into_iter().map(raw).collect(),
+            labels: pools.labels.into_texts(),
+            texts: pools.texts.into_texts(),
+            series: Series::new(trace, &series::stations(trace)),
+            events: events(trace),
+            verdict: &trace.verdict,
+        }
+    }
+}
+
+/// Where the ego starts, to the metre: digits before the point are as dear as those behind it.
+fn origin(trace: &Trace) -> Vec2 {
+    let start = trace.ticks.first().map(|tick| tick.frame.ego.pose.position());
+    start.map_or(Vec2::new(0.0, 0.0), |p| Vec2::new(p.x.round(), p.y.round()))
+}
+
+fn events(trace: &Trace) -> Vec<EventData<'_>> {
+    let all = trace.ticks.iter().flat_map(|tick| &tick.events);
+    all.map(|event| EventData {
+        t: thin::milli(event.time),
+        kind: words::event(event.kind),
+        text: &event.text,
+    })
+    .collect()
+}

@@ -1,0 +1,401 @@
+// The road from above: lanes, marks, the chosen corridor, the path, the ego, obstacles and where they will be.
+
+const METRES_ACROSS = 120; // what the width of the view shows at first
+const EGO_FROM_LEFT = 0.16; // where the ego stands in it, as a part of the width
+const GHOSTS_EVERY = 1; // seconds between outlines along the plan and the predictions
+
+const camera = { scale: 0, panX: 0, panY: 0, x: 0, y: 0 };
+const roadView = canvasView("road", paintRoad);
+
+function roadReset() {
+  Object.assign(camera, { scale: 0, panX: 0, panY: 0 });
+}
+
+/// The map from metres to pixels in the current tick.
+function roadMap(width, height) {
+  const tick = ticks[state.k];
+  if (!camera.scale) camera.scale = width / METRES_ACROSS;
+  if (state.follow || !camera.set) {
+    [camera.x, camera.y] = tick.ego;
+    camera.set = true;
+  }
+  const turn = state.turn ? onLine(lineCaches[tick.line], tick.sl[0]).theta : 0;
+  const [sin, cos, scale] = [Math.sin(turn), Math.cos(turn), camera.scale];
+  const [left, top] = [width * (state.turn ? EGO_FROM_LEFT : 0.5) + camera.panX, height / 2 + camera.panY];
+  const map = (x, y) => {
+    const [dx, dy] = [x - camera.x, y - camera.y];
+    return [left + scale * (cos * dx + sin * dy), top - scale * (cos * dy - sin * dx)];
+  };
+  map.scale = scale;
+  map.turn = turn;
+  return map;
+}
+
+const LANE_COLOURS = {
+  driving: "driving", ramp: "ramp", stop: "stopping", shoulder: "stopping", parking: "stopping",
+  sidewalk: "sidewalk", biking: "biking", median: "median", restricted: "restricted",
+};
+
+// The same polygon in every tick: one path per lane, drawn through the canvas' own transform.
+const lanePaths = run.lanes.map((lane) => {
+  const path = new Path2D();
+  const points = [];
+  for (let k = 0; k < lane.left.length; k += 2) points.push([lane.left[k], lane.left[k + 1]]);
+  for (let k = lane.right.length - 2; k >= 0; k -= 2) points.push([lane.right[k], lane.right[k + 1]]);
+  points.forEach(([x, y], k) => (k ? path.lineTo(x, y) : path.moveTo(x, y)));
+  path.closePath();
+  const edges = new Path2D();
+  for (const side of [lane.left, lane.right]) {
+    for (let k = 0; k < side.length; k += 2) (k ? edges.lineTo(side[k], side[k + 1]) : edges.moveTo(side[k], side[k + 1]));
+  }
+  return { kind: lane.kind, path, edges };
+});
+
+/// Lets the canvas do the turning and scaling; widths are then in metres.
+function inMetres(context, map, action) {
+  context.save();
+  const [ox, oy] = map(0, 0);
+  const [ax, ay] = map(1, 0);
+  context.transform(ax - ox, ay - oy, ay - oy, -(ax - ox), ox, oy);
+  action(1 / map.scale);
+  context.restore();
+}
+
+function paintLanes(context, map) {
+  inMetres(context, map, (pixel) => {
+    // Roads that carry wheels lie on top of what does not.
+    const rank = (lane) => (LANE_COLOURS[lane.kind] === "driving" ? 2 : LANE_COLOURS[lane.kind] ? 1 : 0);
+    for (const lane of [...lanePaths].sort((a, b) => rank(a) - rank(b))) {
+      context.fillStyle = colour(LANE_COLOURS[lane.kind] ?? "otherlane");
+      context.fill(lane.path);
+    }
+    context.lineWidth = pixel;
+    context.strokeStyle = colour("lane-edge");
+    for (const lane of lanePaths) context.stroke(lane.edges);
+  });
+}
+
+const MARKS = {
+  DOTTED_YELLOW: ["yellow-mark", [3, 3]], DOTTED_WHITE: ["white-mark", [3, 3]], SOLID_YELLOW: ["yellow-mark", []],
+  SOLID_WHITE: ["white-mark", []], DOUBLE_YELLOW: ["yellow-mark", []], CURB: ["curb", []],
+};
+
+function paintMarks(context, map) {
+  for (const line of new Set(ticks[state.k] ? [lineCaches[ticks[state.k].line], ...lineCaches] : lineCaches)) {
+    for (const mark of line.marks) {
+      const [ink, dash] = MARKS[mark.kind] ?? [null];
+      if (!ink) continue;
+      context.strokeStyle = colour(ink);
+      const width = Math.max(1.2, 0.14 * map.scale);
+      context.setLineDash(dash.map((length) => length * map.scale));
+      trace(context, mark.at, map);
+      context.lineWidth = mark.kind === "DOUBLE_YELLOW" ? width * 3 : width;
+      context.stroke();
+      if (mark.kind === "DOUBLE_YELLOW") {
+        context.strokeStyle = colour("driving");
+        context.lineWidth = width;
+        context.stroke();
+      }
+    }
+  }
+  context.setLineDash([]);
+}
+
+function paintLine(context, map, line) {
+  context.strokeStyle = colour("soft");
+  context.globalAlpha = 0.5;
+  context.lineWidth = 1;
+  context.setLineDash([8, 4, 1, 4]);
+  context.beginPath();
+  line.x.forEach((x, k) => { const at = map(x, line.y[k]); k ? context.lineTo(...at) : context.moveTo(...at); });
+  context.stroke();
+  context.setLineDash([]);
+  context.globalAlpha = 1;
+}
+
+/// An edge of a bound over the ground, at least a point every two metres, so that it bends with the road.
+function edgeInWorld(edge, line) {
+  const points = [];
+  for (let k = 0; k + 1 < edge.at.length; k += 2) {
+    const [s, l, s2, l2] = [edge.at[k], edge.at[k + 1], edge.at[k + 2] ?? edge.at[k], edge.at[k + 3] ?? edge.at[k + 1]];
+    const steps = Math.max(1, Math.ceil((s2 - s) / 2));
+    for (let j = 0; j < steps; j++) points.push(toWorld(line, s + ((s2 - s) * j) / steps, l + ((l2 - l) * j) / steps));
+  }
+  return points;
+}
+
+function paintCorridor(context, map, tick) {
+  const candidate = tick.candidates[tick.chosen];
+  if (!candidate) return;
+  const line = lineCaches[tick.line];
+  const [right, left] = [edgeInWorld(candidate.right, line), edgeInWorld(candidate.left, line)];
+  const ink = colour(labelColour(run.labels[candidate.label]));
+  context.beginPath();
+  [...right, ...left.reverse()].forEach((p, k) => (k ? context.lineTo(...map(...p)) : context.moveTo(...map(...p))));
+  context.closePath();
+  context.fillStyle = ink;
+  context.globalAlpha = 0.16;
+  context.fill();
+  context.globalAlpha = 0.9;
+  context.strokeStyle = ink;
+  context.lineWidth = 1.5;
+  for (const side of [right, left]) {
+    context.beginPath();
+    side.forEach((p, k) => (k ? context.lineTo(...map(...p)) : context.moveTo(...map(...p))));
+    context.stroke();
+  }
+  context.globalAlpha = 1;
+}
+
+/// A body with its reference point at `x, y`.
+function outline(context, map, x, y, theta, front, back, half) {
+  const [sin, cos] = [Math.sin(theta), Math.cos(theta)];
+  const corner = (f, l) => map(x + f * cos - l * sin, y + f * sin + l * cos);
+  context.beginPath();
+  [corner(-back, -half), corner(front, -half), corner(front, half), corner(-back, half)]
+    .forEach((p, k) => (k ? context.lineTo(...p) : context.moveTo(...p)));
+  context.closePath();
+}
+
+const egoOutline = (context, map, x, y, theta) =>
+  outline(context, map, x, y, theta, run.vehicle.front, run.vehicle.back, run.vehicle.half_width);
+
+function paintPlan(context, map, tick) {
+  context.strokeStyle = colour("path");
+  context.lineWidth = 1;
+  context.globalAlpha = 0.45;
+  let next = GHOSTS_EVERY, lastX = Infinity, lastY = Infinity;
+  for (let k = 0; k + 4 < tick.plan.length; k += 5) {
+    const [t, x, y, theta] = tick.plan.slice(k, k + 4);
+    if (t < next - 1e-6 || Math.hypot(x - lastX, y - lastY) < 0.3) continue;
+    next = t + GHOSTS_EVERY;
+    [lastX, lastY] = [x, y];
+    egoOutline(context, map, x, y, theta);
+    context.stroke();
+  }
+  context.globalAlpha = 1;
+  context.lineWidth = 2.2;
+  trace(context, tick.path, map, 4, 2);
+  context.stroke();
+}
+
+function paintEgo(context, map, tick) {
+  const [x, y, theta, steer] = tick.ego;
+  egoOutline(context, map, x, y, theta);
+  context.fillStyle = colour("ego-fill");
+  context.fill();
+  context.strokeStyle = colour("ego");
+  context.lineWidth = 2;
+  context.stroke();
+  const [sin, cos] = [Math.sin(theta), Math.cos(theta)];
+  const at = (f, l) => map(x + f * cos - l * sin, y + f * sin + l * cos);
+  const half = run.vehicle.half_width;
+  context.beginPath();
+  context.moveTo(...at(run.vehicle.front - 1.9, half * 0.7));
+  context.lineTo(...at(run.vehicle.front - 1.2, 0));
+  context.lineTo(...at(run.vehicle.front - 1.9, -half * 0.7));
+  context.stroke();
+  if (map.scale > 14) paintWheels(context, at, steer);
+  context.beginPath();
+  context.arc(...map(x, y), 2.5, 0, 7);
+  context.fillStyle = colour("ego");
+  context.fill();
+}
+
+function paintWheels(context, at, steer) {
+  const track = run.vehicle.half_width - 0.2;
+  context.lineWidth = 3;
+  for (const [f, l, angle] of [[0, track, 0], [0, -track, 0], [run.vehicle.wheel_base, track, steer], [run.vehicle.wheel_base, -track, steer]]) {
+    const [dx, dy] = [0.33 * Math.cos(angle), 0.33 * Math.sin(angle)];
+    context.beginPath();
+    context.moveTo(...at(f - dx, l - dy));
+    context.lineTo(...at(f + dx, l + dy));
+    context.stroke();
+  }
+}
+
+function paintPrediction(context, map, obstacle) {
+  const path = obstacle.prediction;
+  if (!path.length) return;
+  const ink = colour(obstacleColour(obstacle));
+  context.strokeStyle = ink;
+  context.fillStyle = ink;
+  context.globalAlpha = 0.6;
+  context.lineWidth = 1.3;
+  context.setLineDash([2, 3]);
+  context.beginPath();
+  for (let k = 0; k < path.length; k += 6) {
+    const at = map(path[k + 1], path[k + 2]);
+    k ? context.lineTo(...at) : context.moveTo(...at);
+  }
+  context.stroke();
+  context.setLineDash([]);
+  for (let k = 0, next = GHOSTS_EVERY; k < path.length; k += 6) {
+    if (path[k] < next - 1e-6) continue;
+    next = path[k] + GHOSTS_EVERY;
+    const [x, y] = map(path[k + 1], path[k + 2]);
+    context.beginPath();
+    context.arc(x, y, 2, 0, 7);
+    context.fill();
+  }
+  context.globalAlpha = 1;
+}
+
+function paintObstacle(context, map, obstacle) {
+  const ink = obstacleColour(obstacle);
+  trace(context, obstacle.xy, map);
+  context.closePath();
+  context.fillStyle = colour(`${ink}-fill`);
+  context.fill();
+  context.strokeStyle = colour(ink);
+  context.lineWidth = 1.3;
+  context.stroke();
+  const [vx, vy] = obstacle.speed;
+  if (Math.hypot(vx, vy) > 0.1) {
+    // One second of driving.
+    arrow(context, map(obstacle.at[0], obstacle.at[1]), map(obstacle.at[0] + vx, obstacle.at[1] + vy));
+  }
+}
+
+function arrow(context, from, to) {
+  const angle = Math.atan2(to[1] - from[1], to[0] - from[0]);
+  const head = (turn) => [to[0] - 6 * Math.cos(angle + turn), to[1] - 6 * Math.sin(angle + turn)];
+  context.beginPath();
+  context.moveTo(...from);
+  context.lineTo(...to);
+  context.moveTo(...head(0.45));
+  context.lineTo(...to);
+  context.lineTo(...head(-0.45));
+  context.stroke();
+}
+
+/// Names, nearest first, as many as fit without covering each other.
+function paintNames(context, map, tick, width, height) {
+  const taken = [];
+  const distance = (o) => Math.hypot(o.at[0] - tick.ego[0], o.at[1] - tick.ego[1]) - (o.fixed ? 0 : 1000);
+  for (const obstacle of obstaclesOf(tick).sort((a, b) => distance(a) - distance(b))) {
+    const corners = [];
+    for (let k = 0; k < obstacle.xy.length; k += 2) corners.push(map(obstacle.xy[k], obstacle.xy[k + 1]));
+    const x = corners.reduce((sum, c) => sum + c[0], 0) / corners.length;
+    const y = Math.min(...corners.map((c) => c[1])) - 4;
+    if (x < 0 || x > width || y < 8 || y > height + 20) continue;
+    const name = nameOf(obstacle.id);
+    const half = context.measureText(name).width / 2 + 2;
+    const box = [x - half, y - 11, x + half, y + 2];
+    if (taken.some((t) => box[0] < t[2] && box[2] > t[0] && box[1] < t[3] && box[3] > t[1])) continue;
+    taken.push(box);
+    label(context, name, x, y, { align: "center", ink: obstacleColour(obstacle) });
+  }
+}
+
+function paintTarget(context, map, tick) {
+  if (!tick.pull_over) return;
+  context.strokeStyle = colour("c-pullover");
+  context.lineWidth = 1.8;
+  context.setLineDash([5, 3]);
+  egoOutline(context, map, ...tick.pull_over);
+  context.stroke();
+  context.setLineDash([]);
+  const [x, y] = map(tick.pull_over[0], tick.pull_over[1]);
+  context.beginPath();
+  context.moveTo(x - 6, y); context.lineTo(x + 6, y); context.moveTo(x, y - 6); context.lineTo(x, y + 6);
+  context.stroke();
+}
+
+/// Where the ego has been and will be in this run.
+function paintTrail(context, map) {
+  context.strokeStyle = colour("ego");
+  context.lineWidth = 1.2;
+  context.globalAlpha = 0.35;
+  context.beginPath();
+  ticks.slice(0, state.k + 1).forEach((tick, k) => {
+    const at = map(tick.ego[0], tick.ego[1]);
+    k ? context.lineTo(...at) : context.moveTo(...at);
+  });
+  context.stroke();
+  context.globalAlpha = 1;
+}
+
+function paintScaleBar(context, map, width, height) {
+  const length = [1, 2, 5, 10, 20, 50, 100, 200, 500].find((metres) => metres * map.scale > 60) ?? 1000;
+  const [right, y] = [width - 14, height - 12];
+  context.strokeStyle = colour("text");
+  context.lineWidth = 1.5;
+  context.beginPath();
+  context.moveTo(right - length * map.scale, y - 4);
+  context.lineTo(right - length * map.scale, y);
+  context.lineTo(right, y);
+  context.lineTo(right, y - 4);
+  context.stroke();
+  label(context, `${length} m`, right - (length * map.scale) / 2, y - 4, { align: "center", rim: "ground" });
+  if (!state.turn) return;
+  const [cx, cy] = [width - 24, 24];
+  context.lineWidth = 1.3;
+  arrow(context, [cx + 10 * Math.sin(-map.turn), cy + 10 * Math.cos(-map.turn)], [cx - 10 * Math.sin(-map.turn), cy - 10 * Math.cos(-map.turn)]);
+  label(context, "N", cx - 18 * Math.sin(-map.turn), cy - 18 * Math.cos(-map.turn), { align: "center", base: "middle", rim: "ground" });
+}
+
+function paintRoad(context, width, height) {
+  context.fillStyle = colour("ground");
+  context.fillRect(0, 0, width, height);
+  if (!ticks.length) return;
+  const tick = ticks[state.k];
+  const map = roadMap(width, height);
+  paintLanes(context, map);
+  paintMarks(context, map);
+  paintLine(context, map, lineCaches[tick.line]);
+  paintCorridor(context, map, tick);
+  paintTrail(context, map);
+  paintTarget(context, map, tick);
+  const obstacles = obstaclesOf(tick);
+  if (state.predictions) for (const obstacle of obstacles) paintPrediction(context, map, obstacle);
+  for (const obstacle of obstacles) paintObstacle(context, map, obstacle);
+  paintPlan(context, map, tick);
+  paintEgo(context, map, tick);
+  paintNames(context, map, tick, width, height);
+  paintScaleBar(context, map, width, height);
+}
+
+/// Whether a point lies in the polygon `x, y, …` after `map`.
+function within(numbers, map, x, y) {
+  let inside = false;
+  for (let k = 0, j = numbers.length - 2; k < numbers.length; j = k, k += 2) {
+    const [ax, ay] = map(numbers[k], numbers[k + 1]);
+    const [bx, by] = map(numbers[j], numbers[j + 1]);
+    if (ay > y !== by > y && x < ((bx - ax) * (y - ay)) / (by - ay) + ax) inside = !inside;
+  }
+  return inside;
+}
+
+function obstacleText(obstacle, tick) {
+  const speed = Math.hypot(...obstacle.speed);
+  const s = obstacle.sl.filter((_, k) => k % 2 === 0);
+  const l = obstacle.sl.filter((_, k) => k % 2 === 1);
+  return [
+    `${nameOf(obstacle.id)} (${obstacle.kind}${obstacle.fixed ? ", standing" : ""})`,
+    `s ${fixed(Math.min(...s), 1)}…${fixed(Math.max(...s), 1)} m, l ${signed(Math.min(...l))} to ${signed(Math.max(...l))} m`,
+    `${fixed(Math.min(...s) - tick.sl[0] - run.vehicle.front, 1)} m ahead of the bumper along the line`,
+    obstacle.fixed ? "" : `${fixed(speed, 1)} m/s (${fixed(speed * 3.6, 0)} km/h)`,
+  ].filter(Boolean).join("\n");
+}
+
+pointer(roadView, {
+  drag(dx, dy) { camera.panX += dx; camera.panY += dy; },
+  wheel(factor, x, y) {
+    const { width, height } = roadView;
+    const scale = Math.max(0.3, Math.min(400, camera.scale * factor));
+    const [left, top] = [width * (state.turn ? EGO_FROM_LEFT : 0.5) + camera.panX, height / 2 + camera.panY];
+    const grown = scale / camera.scale - 1;
+    camera.panX -= (x - left) * grown;
+    camera.panY -= (y - top) * grown;
+    camera.scale = scale;
+  },
+  hover(x, y) {
+    if (!ticks.length) return null;
+    const tick = ticks[state.k];
+    const map = roadMap(roadView.width, roadView.height);
+    const found = obstaclesOf(tick).find((obstacle) => within(obstacle.xy, map, x, y));
+    return found ? obstacleText(found, tick) : null;
+  },
+  reset: roadReset,
+});

@@ -1,0 +1,261 @@
+//! One tick as the page draws it.
+
+use super::intern::Pool;
+use super::line::flat;
+use super::thin;
+use crate::explain::words;
+use crate::trace::{TickRecord, Trace};
+use corridor_decider::decision::{Candidate, PathPoint, TrajectoryPoint};
+use corridor_decider::frame::Obstacle;
+use corridor_decider::geometry::{Pose, Vec2};
+use corridor_decider::reference_line::{LineQuery, ReferenceLine};
+use corridor_decider::tasks::path_bounds::{BoundPoint, EdgeCause, PathBound};
+use serde::Serialize;
+
+/// Time between the points of a plan or a prediction that the page gets, s.
+const PLAN_SPACING: f64 = 0.5;
+
+/// What is written once and referred to by place.
+#[derive(Default)]
+pub(super) struct Pools {
+    pub(super) texts: Pool,
+    pub(super) labels: Pool,
+    /// Obstacles as JSON: a parked car is the same in every tick.
+    pub(super) obstacles: Pool,
+}
+
+/// One tick. Short names where thousands of them are written.
+#[derive(Serialize)]
+pub(super) struct TickData {
+    t: f64,
+    n: u32,
+    /// `x, y, theta, steer, yaw rate`
+    ego: [f64; 5],
+    sl: [f64; 2],
+    /// Place of the line in the page's lines.
+    line: usize,
+    command: usize,
+    obstacles: Vec<usize>,
+    candidates: Vec<CandidateData>,
+    chosen: Option<usize>,
+    /// `s, l, x, y, …`
+    path: Vec<f64>,
+    /// `t, x, y, theta, v, …`
+    plan: Vec<f64>,
+    stop: Option<usize>,
+    /// Arc length along the path to the stop, m.
+    stop_at: Option<f64>,
+    outcome: usize,
+    normal: bool,
+    /// `x, y, theta`
+    pull_over: Option<[f64; 3]>,
+    hash: String,
+}
+
+#[derive(Serialize)]
+struct CandidateData {
+    label: usize,
+    text: usize,
+    /// Name of what closes it.
+    blocked: Option<usize>,
+    /// First and last station.
+    span: [f64; 2],
+    /// Station, right and left limit at the narrowest place.
+    narrow: Option<[f64; 3]>,
+    right: EdgeData,
+    left: EdgeData,
+}
+
+#[derive(Serialize)]
+struct EdgeData {
+    /// `s, l, s, l, …`
+    at: Vec<f64>,
+    /// `cause, first station, cause, first station, …`; the cause is a place in the texts.
+    causes: Vec<f64>,
+    /// Class of each cause, for its colour.
+    classes: Vec<&'static str>,
+}
+
+#[derive(Serialize)]
+struct ObstacleData {
+    id: u32,
+    kind: corridor_decider::frame::ObstacleKind,
+    fixed: bool,
+    at: [f64; 3],
+    speed: [f64; 2],
+    /// Footprint, `x, y, …` and `s, l, …`
+    xy: Vec<f64>,
+    sl: Vec<f64>,
+    /// Prediction, `t, x, y, theta, s, l, …`
+    prediction: Vec<f64>,
+}
+
+impl TickData {
+    pub(super) fn new(trace: &Trace, tick: &TickRecord, origin: Vec2, pools: &mut Pools) -> Self {
+        let (line, decision, frame) = (trace.line(tick), &tick.decision, &tick.frame);
+        let at = line.to_frenet(frame.ego.pose.position());
+        let [x, y, theta] = pose(frame.ego.pose, origin);
+        let stop = decision.stop.filter(|stop| stop.distance.is_finite());
+        Self {
+            t: thin::milli(frame.time),
+            n: frame.tick,
+            ego: [x, y, theta, fine(frame.ego.steer), fine(frame.ego.yaw_rate)],
+            sl: [thin::milli(at.s), thin::offset(at.l)],
+            line: tick.lines[decision.line].0,
+            command: pools.texts.place(words::command(frame.command)),
+            obstacles: (frame.obstacles.iter())
+                .map(|o| pools.obstacles.place(obstacle(line, o, origin)))
+                .collect(),
+            candidates: (decision.candidates.iter())
+                .map(|c| candidate(trace, c, pools))
+                .collect(),
+            chosen: decision.chosen,
+            path: path(&decision.path, origin),
+            plan: plan(&decision.trajectory, origin),
+            stop: decision
+                .stop
+                .map(|stop| pools.texts.place(words::stop(trace, stop))),
+            stop_at: stop.map(|stop| thin::milli(stop.distance)),
+            outcome: pools.texts.place(words::outcome(decision.outcome).to_owned()),
+            normal: decision.outcome == corridor_decider::decision::Outcome::Normal,
+            pull_over: decision.pull_over.map(|target| {
+                pose(
+                    Pose::new(target.position.x, target.position.y, target.theta),
+                    origin,
+                )
+            }),
+            hash: tick.hash.clone(),
+        }
+    }
+}
+
+/// Angles and curvatures.
+fn fine(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4 + 0.0
+}
+
+fn pose(pose: Pose, origin: Vec2) -> [f64; 3] {
+    [
+        thin::milli(pose.x - origin.x),
+        thin::milli(pose.y - origin.y),
+        fine(pose.theta),
+    ]
+}
+
+fn candidate(trace: &Trace, candidate: &Candidate, pools: &mut Pools) -> CandidateData {
+    let bound = &candidate.bound;
+    CandidateData {
+        label: pools.labels.place(bound.label.to_string()),
+        text: pools.texts.place(words::assessment(trace, candidate.assessment)),
+        blocked: bound.blocked_by.map(|id| pools.texts.place(trace.obstacle(id))),
+        span: [thin::milli(bound.start_s()), thin::milli(bound.end_s())],
+        narrow: words::narrowest(bound)
+            .map(|p| [thin::milli(p.s), thin::offset(p.l_min), thin::offset(p.l_max)]),
+        right: edge(trace, bound, pools, |p| (p.right, p.l_min)),
+        left: edge(trace, bound, pools, |p| (p.left, p.l_max)),
+    }
+}
+
+fn edge(
+    trace: &Trace,
+    bound: &PathBound,
+    pools: &mut Pools,
+    side: impl Fn(&BoundPoint) -> (EdgeCause, f64),
+) -> EdgeData {
+    let points: Vec<Vec2> = (bound.points.iter())
+        .map(|p| Vec2::new(p.s, thin::offset(side(p).1)))
+        .collect();
+    let differs = |a: usize, b: usize| side(&bound.points[a]).0 != side(&bound.points[b]).0;
+    let kept = thin::keep(&points, |k| differs(k, k - 1) || differs(k, k + 1));
+    let starts: Vec<&BoundPoint> = (bound.points.chunk_by(|a, b| side(a).0 == side(b).0))
+        .map(|run| &run[0])
+        .collect();
+    let places = (starts.iter())
+        .flat_map(|p| {
+            let place = pools.texts.place(words::cause(trace, side(p).0));
+            [place as f64, thin::milli(p.s)]
+        })
+        .collect();
+    EdgeData {
+        at: (points.iter().zip(kept))
+            .filter(|(_, kept)| *kept)
+            .flat_map(|(p, _)| [thin::milli(p.x), p.y])
+            .collect(),
+        causes: places,
+        classes: starts.iter().map(|p| class(side(p).0)).collect(),
+    }
+}
+
+/// The class of a cause: obstacles share one, whichever they are.
+fn class(cause: EdgeCause) -> &'static str {
+    match cause {
+        EdgeCause::Unbounded => "unbounded",
+        EdgeCause::LaneLine => "lane_line",
+        EdgeCause::BorrowedLane => "borrowed_lane",
+        EdgeCause::RoadEdge => "road_edge",
+        EdgeCause::Ego => "ego",
+        EdgeCause::Obstacle(_) => "obstacle",
+        EdgeCause::LaneChangeZone => "lane_change_zone",
+        EdgeCause::PullOverTarget => "pull_over_target",
+    }
+}
+
+fn path(points: &[PathPoint], origin: Vec2) -> Vec<f64> {
+    let in_world: Vec<Vec2> = points.iter().map(|p| p.pose.position()).collect();
+    let on_line: Vec<Vec2> = points.iter().map(|p| Vec2::new(p.s, p.l)).collect();
+    // A straight path beside a bend is a curve over the line, and the other way round: both must look right.
+    let (world, line) = (thin::keep(&in_world, |_| false), thin::keep(&on_line, |_| false));
+    (0..points.len())
+        .filter(|k| world[*k] || line[*k])
+        .flat_map(|k| {
+            let [x, y, _] = pose(points[k].pose, origin);
+            [thin::milli(points[k].s), thin::offset(points[k].l), x, y]
+        })
+        .collect()
+}
+
+fn plan(points: &[TrajectoryPoint], origin: Vec2) -> Vec<f64> {
+    every(points, |p| p.t)
+        .flat_map(|p| {
+            let [x, y, theta] = pose(p.pose, origin);
+            [thin::milli(p.t), x, y, theta, thin::centi(p.v)]
+        })
+        .collect()
+}
+
+/// The points at least [`PLAN_SPACING`] apart in time, with the first and the last.
+fn every<T>(points: &[T], time: impl Fn(&T) -> f64) -> impl Iterator<Item = &T> {
+    let mut next = f64::NEG_INFINITY;
+    let last = points.len().saturating_sub(1);
+    points.iter().enumerate().filter_map(move |(k, p)| {
+        let due = time(p) >= next - 1e-6;
+        if due {
+            next = time(p) + PLAN_SPACING;
+        }
+        (due || k == last).then_some(p)
+    })
+}
+
+fn obstacle(line: &ReferenceLine, obstacle: &Obstacle, origin: Vec2) -> String {
+    let footprint = obstacle.footprint();
+    let on_line = |p: Vec2| {
+        let at = line.to_frenet(p);
+        [thin::milli(at.s), thin::offset(at.l)]
+    };
+    let data = ObstacleData {
+        id: obstacle.id.0,
+        kind: obstacle.kind,
+        fixed: obstacle.is_static,
+        at: pose(obstacle.pose, origin),
+        speed: [thin::centi(obstacle.velocity.x), thin::centi(obstacle.velocity.y)],
+        xy: flat(footprint.vertices().iter().copied(), origin),
+        sl: footprint.vertices().iter().flat_map(|p| on_line(*p)).collect(),
+        prediction: every(&obstacle.prediction, |p| p.t)
+            .flat_map(|p| {
+                let ([x, y, theta], [s, l]) = (pose(p.pose, origin), on_line(p.pose.position()));
+                [thin::centi(p.t), x, y, theta, s, l]
+            })
+            .collect(),
+    };
+    serde_json::to_string(&data).expect("plain data always serialise")
+}
