@@ -7,6 +7,7 @@ pub mod decider;
 pub mod explain;
 pub mod monitor;
 pub mod perception;
+pub mod replay;
 pub mod report;
 mod route;
 pub mod run;

@@ -3,15 +3,12 @@
 use crate::closed_loop::{ClosedLoop, NoSink, Sink};
 use crate::route::Route;
 use crate::settings::Settings;
-use crate::trace::{Header, LaneOutline, TickRecord, TraceError, TraceWriter};
+use crate::trace::{FORMAT, Header, LaneOutline, TickRecord, TraceError, TraceWriter};
 use crate::verdict::Verdict;
 use corridor_decider::geometry::Vec2;
 use corridor_decider::road::Lane;
 use corridor_scenarios::{Family, Scenario};
 use std::path::Path;
-
-/// Version of the trace's layout. Readers refuse others.
-pub const TRACE_FORMAT: u32 = 1;
 
 /// Cross-sections of a lane that are left out between two drawn ones: half a metre apart is finer than a page
 /// shows.
@@ -67,7 +64,7 @@ impl Sink for TraceSink {
 /// What a trace says of the run before its first tick.
 pub fn header(family: &Family, scenario: &Scenario, overrides: &[String], settings: &Settings) -> Header {
     Header {
-        format: TRACE_FORMAT,
+        format: FORMAT,
         build: env!("CARGO_PKG_VERSION").to_owned(),
         scenario: scenario.name.clone(),
         source: family.source().to_string(),

@@ -3,8 +3,12 @@
 //! Exit codes: 0 passed, 1 a gate failed, 2 wrong use or bad input.
 #![allow(clippy::print_stdout, reason = "a program that prints its results")]
 
+mod catalog;
+mod output;
 mod run;
 mod source;
+mod sweep;
+mod trace;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -21,6 +25,18 @@ struct Arguments {
 enum Verb {
     /// Run one scenario and print its verdict.
     Run(run::Run),
+    /// Run many seeds of many scenarios and report.
+    Sweep(sweep::Sweep),
+    /// Run a trace again and compare every state.
+    Replay(trace::Replay),
+    /// List the catalog.
+    List(catalog::List),
+    /// Check scenario files without running them.
+    Validate(catalog::Validate),
+    /// Tell what one tick saw and decided, and why.
+    Explain(trace::Explain),
+    /// Write a page that shows a trace.
+    View(trace::View),
 }
 
 /// Whether the gates were passed.
@@ -34,6 +50,12 @@ pub(crate) fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let gate = match &arguments.verb {
         Verb::Run(run) => run.execute(),
+        Verb::Sweep(sweep) => sweep.execute(),
+        Verb::Replay(replay) => replay.execute(),
+        Verb::List(list) => list.execute(),
+        Verb::Validate(validate) => validate.execute(),
+        Verb::Explain(explain) => explain.execute(),
+        Verb::View(view) => view.execute(),
     };
     match gate {
         Ok(Gate::Passed) => ExitCode::SUCCESS,

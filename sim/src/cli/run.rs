@@ -1,16 +1,21 @@
 //! `corridor run`: one scenario, one verdict.
 
-use super::{Gate, source};
+use super::{Gate, output, source};
 use clap::Args;
-use corridor_scenarios::MapCache;
-use corridor_sim::run;
+use corridor_scenarios::{Family, MapCache, Scenario};
 use corridor_sim::settings::Settings;
+use corridor_sim::trace::Trace;
 use corridor_sim::verdict::Verdict;
+use corridor_sim::{run, view};
 use std::path::PathBuf;
+
+/// What a newcomer is shown: parked cars to pass and a place at the kerb between two of them.
+const DEFAULT: &str = "pull_over_between_parked";
 
 #[derive(Args)]
 pub(crate) struct Run {
     /// A scenario file, or the name of one in the catalog.
+    #[arg(default_value = DEFAULT)]
     scenario: String,
     /// Which scenario of a family.
     #[arg(long, default_value_t = 1)]
@@ -18,6 +23,9 @@ pub(crate) struct Run {
     /// Write a trace to this file.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
+    /// Write a page that shows the run to this file.
+    #[arg(long, value_name = "FILE")]
+    view: Option<PathBuf>,
     /// Change a setting, as in `decider.path_bounds.obstacle_lat_buffer=0.3` or `profile=apollo`.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<String>,
@@ -28,12 +36,30 @@ impl Run {
         let settings = Settings::with(&self.settings)?;
         let family = source::family(&self.scenario, &MapCache::new())?;
         let drawn = family.draw(self.seed)?;
-        let verdict = match &self.trace {
-            Some(path) => run::run_traced(&family, &drawn.scenario, &self.settings, &settings, path)?,
-            None => run::run(&drawn.scenario, &settings),
-        };
+        let verdict = self.run(&family, &drawn.scenario, &settings)?;
         print(&verdict);
         Ok(if verdict.pass { Gate::Passed } else { Gate::Failed })
+    }
+
+    fn run(&self, family: &Family, scenario: &Scenario, settings: &Settings) -> anyhow::Result<Verdict> {
+        let Some(page) = &self.view else {
+            return Ok(match &self.trace {
+                Some(path) => run::run_traced(family, scenario, &self.settings, settings, path)?,
+                None => run::run(scenario, settings),
+            });
+        };
+        // The page is drawn from a trace; without a wish for one it is a passing one beside the page.
+        let path = self
+            .trace
+            .clone()
+            .unwrap_or_else(|| page.with_extension("trace.zst"));
+        let verdict = run::run_traced(family, scenario, &self.settings, settings, &path)?;
+        output::write(page, &view::page(&Trace::open(&path)?))?;
+        if self.trace.is_none() {
+            std::fs::remove_file(&path)?;
+        }
+        println!("page {}", page.display());
+        Ok(verdict)
     }
 }
 

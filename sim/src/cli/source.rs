@@ -1,9 +1,106 @@
 //! Where scenarios come from: files, folders, and the embedded catalog by name.
 
-use corridor_scenarios::{Family, MapCache};
-use std::path::Path;
+use anyhow::Context;
+use corridor_scenarios::{Family, MapCache, ScenarioError, catalog};
+use std::path::{Path, PathBuf};
+
+/// Stands for the whole embedded catalog.
+pub(crate) const CATALOG: &str = "catalog";
 
 /// One scenario by path or by catalog name.
 pub(crate) fn family(given: &str, maps: &MapCache) -> anyhow::Result<Family> {
-    Ok(Family::load_with(Path::new(given), maps)?)
+    let path = Path::new(given);
+    if path.is_file() {
+        return Ok(Family::load_with(path, maps)?);
+    }
+    match catalog::find(given) {
+        Some(entry) => Ok(entry.load(maps)?),
+        None => anyhow::bail!(
+            "`{given}`: neither a scenario file nor a name in the catalog; `corridor list` shows the names"
+        ),
+    }
+}
+
+/// Families to sweep over, and those whose map is not on this machine.
+#[derive(Default)]
+pub(crate) struct Selection {
+    /// Each with how to name it on the command line.
+    pub families: Vec<(Family, String)>,
+    /// Why others are left out.
+    pub skipped: Vec<String>,
+}
+
+/// All scenarios of files, folders (with their subfolders) and catalog names.
+pub(crate) fn select(given: &[String], maps: &MapCache) -> anyhow::Result<Selection> {
+    let mut selection = Selection::default();
+    for name in given {
+        if name == CATALOG && !Path::new(name).exists() {
+            for entry in catalog::ENTRIES {
+                selection.add(entry.load(maps), entry.name.to_owned())?;
+            }
+        } else if Path::new(name).is_dir() {
+            for file in files(name)? {
+                selection.add(Family::load_with(&file, maps), file.display().to_string())?;
+            }
+        } else {
+            selection.families.push((family(name, maps)?, name.clone()));
+        }
+    }
+    selection.check_names()?;
+    Ok(selection)
+}
+
+impl Selection {
+    fn add(&mut self, family: Result<Family, ScenarioError>, given: String) -> anyhow::Result<()> {
+        match family {
+            Ok(family) => self.families.push((family, given)),
+            Err(ScenarioError::MapNotFound { hint, .. }) => self.skipped.push(format!("{given}: {hint}")),
+            Err(error) => return Err(error.into()),
+        }
+        Ok(())
+    }
+
+    /// Rows are told apart by the families' names.
+    fn check_names(&self) -> anyhow::Result<()> {
+        let mut names: Vec<&str> = self.families.iter().map(|(family, _)| family.name()).collect();
+        names.sort_unstable();
+        match names.windows(2).find(|pair| pair[0] == pair[1]) {
+            Some(pair) => anyhow::bail!("two scenarios are called `{}`: give one another `name`", pair[0]),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A file itself, or all scenario files of a folder.
+pub(crate) fn files(given: &str) -> anyhow::Result<Vec<PathBuf>> {
+    let path = Path::new(given);
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let files = files_below(path)?;
+    anyhow::ensure!(
+        !files.is_empty(),
+        "`{given}`: no scenario file (`*.toml`) in this folder"
+    );
+    Ok(files)
+}
+
+/// All `*.toml` files of a folder and its subfolders, sorted.
+fn files_below(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        let entries = std::fs::read_dir(&folder).with_context(|| format!("`{}`", folder.display()))?;
+        for entry in entries {
+            let entry = entry.with_context(|| format!("`{}`", folder.display()))?;
+            let path = entry.path();
+            if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "toml") {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    Ok(files)
 }

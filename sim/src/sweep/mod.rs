@@ -1,3 +1,111 @@
 //! Sweeps: many runs at once, and what can be said of them.
 
+mod plan;
 pub mod statistics;
+
+pub use plan::{Job, Plan};
+
+use crate::report::{RunResult, SweepReport, SweepRow};
+use crate::run;
+use crate::settings::Settings;
+use crate::verdict::Verdict;
+use corridor_scenarios::{Drawn, Family};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+/// Why a sweep cannot start.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SweepError {
+    /// The threads could not be made.
+    #[error("cannot start {jobs} threads: {source}")]
+    Threads {
+        /// How many were asked for.
+        jobs: usize,
+        /// What went wrong.
+        source: rayon::ThreadPoolBuildError,
+    },
+}
+
+/// Runs every job of a plan on `threads` threads (0: one per core) and reports. `done` hears of each finished
+/// run, in any order; the report does not depend on it.
+///
+/// # Errors
+/// [`SweepError`] when the threads cannot be started.
+pub fn sweep(
+    plan: &Plan,
+    settings: &Settings,
+    overrides: &[String],
+    threads: usize,
+    done: &(dyn Fn(&SweepRow) + Sync),
+) -> Result<SweepReport, SweepError> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|source| SweepError::Threads {
+            jobs: threads,
+            source,
+        })?;
+    let run_job = |job: &Job| {
+        let row = row(plan, *job, settings, overrides);
+        done(&row);
+        row
+    };
+    Ok(SweepReport::new(
+        pool.install(|| plan.jobs().par_iter().map(run_job).collect()),
+    ))
+}
+
+fn row(plan: &Plan, job: Job, settings: &Settings, overrides: &[String]) -> SweepRow {
+    let (family, given) = plan.family(job);
+    let (result, rejected, wall_time) = match family.draw(job.seed) {
+        Ok(drawn) => judged(&drawn, settings),
+        Err(error) => (
+            RunResult::Broken(error.to_string()),
+            BTreeMap::new(),
+            Duration::ZERO,
+        ),
+    };
+    SweepRow {
+        scenario: family.name().to_owned(),
+        seed: job.seed,
+        result,
+        rejected,
+        replay: replay_command(given, job.seed, overrides),
+        wall_time,
+    }
+}
+
+fn judged(drawn: &Drawn, settings: &Settings) -> (RunResult, BTreeMap<String, u32>, Duration) {
+    let mut rejected = BTreeMap::new();
+    for rejection in &drawn.rejected {
+        *rejected.entry(rejection.reason().to_owned()).or_insert(0) += 1;
+    }
+    let (verdict, wall_time) = timed(|| run::run(&drawn.scenario, settings));
+    (RunResult::Judged(Box::new(verdict)), rejected, wall_time)
+}
+
+#[expect(
+    clippy::disallowed_types,
+    reason = "how long a run took stands beside its result, never in it"
+)]
+fn timed(run: impl FnOnce() -> Verdict) -> (Verdict, Duration) {
+    let start = std::time::Instant::now();
+    let verdict = run();
+    (verdict, start.elapsed())
+}
+
+/// The command that runs one job again.
+fn replay_command(given: &str, seed: u64, overrides: &[String]) -> String {
+    let settings: String = overrides
+        .iter()
+        .map(|setting| format!(" --set {setting}"))
+        .collect();
+    format!("corridor run {given} --seed {seed}{settings}")
+}
+
+/// The family of a row in a plan, to run it again with a trace.
+pub fn find<'a>(plan: &'a Plan, row: &SweepRow) -> Option<&'a Family> {
+    plan.families().find(|family| family.name() == row.scenario)
+}

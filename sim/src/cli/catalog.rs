@@ -1,0 +1,81 @@
+//! `corridor list` and `corridor validate`.
+
+use super::{Gate, source};
+use clap::Args;
+use corridor_scenarios::{Family, MapCache, ScenarioError, catalog};
+use std::path::Path;
+
+/// Seeds that `validate` draws of a family.
+const SEEDS_DRAWN: u64 = 20;
+
+#[derive(Args)]
+pub(crate) struct List {}
+
+impl List {
+    #[expect(clippy::unused_self, reason = "all verbs are executed alike")]
+    pub(crate) fn execute(&self) -> anyhow::Result<Gate> {
+        let maps = MapCache::new();
+        let width = catalog::ENTRIES
+            .iter()
+            .map(|entry| entry.name.len())
+            .max()
+            .unwrap_or(0);
+        for entry in catalog::ENTRIES {
+            match entry.load(&maps) {
+                Ok(family) => {
+                    let kind = if family.is_fixed() { "scenario" } else { "family  " };
+                    println!("{:width$}  {kind}  {}", entry.name, family.description());
+                }
+                Err(ScenarioError::MapNotFound { .. }) => {
+                    println!("{:width$}  skipped   its map is not on this machine", entry.name);
+                }
+                Err(error) => return Err(error.into()),
+            }
+        }
+        Ok(Gate::Passed)
+    }
+}
+
+#[derive(Args)]
+pub(crate) struct Validate {
+    /// Scenario files or folders of them.
+    #[arg(required = true)]
+    files: Vec<String>,
+}
+
+impl Validate {
+    /// Reads every file and draws some seeds; all mistakes are told, not just the first.
+    pub(crate) fn execute(&self) -> anyhow::Result<Gate> {
+        let maps = MapCache::new();
+        let mut mistakes = 0;
+        for given in &self.files {
+            for file in source::files(given)? {
+                match check(&file, &maps) {
+                    Ok(text) => println!("{}: {text}", file.display()),
+                    Err(error) => {
+                        mistakes += 1;
+                        eprintln!("error: {error:#}");
+                    }
+                }
+            }
+        }
+        anyhow::ensure!(mistakes == 0, "{mistakes} of the files cannot be run");
+        Ok(Gate::Passed)
+    }
+}
+
+fn check(file: &Path, maps: &MapCache) -> anyhow::Result<String> {
+    let family = match Family::load_with(file, maps) {
+        Err(ScenarioError::MapNotFound { hint, .. }) => return Ok(format!("skipped: {hint}")),
+        family => family?,
+    };
+    let seeds = if family.is_fixed() { 1 } else { SEEDS_DRAWN };
+    let mut rejected = 0;
+    for seed in 1..=seeds {
+        rejected += family.draw(seed)?.rejected.len();
+    }
+    let warnings = family.map_warnings().len();
+    Ok(format!(
+        "good; {seeds} seeds drawn, {rejected} draws rejected, {warnings} warnings of its map"
+    ))
+}
