@@ -10,6 +10,7 @@
 //!                                                              └── next attempt ─────┘
 //! ```
 
+pub mod catalog;
 pub mod error;
 mod expectation;
 mod family;

@@ -6,8 +6,10 @@
 //! close behind each other together and takes off what a careful planner keeps clear of each: a car narrower
 //! than that must pass.
 
-use super::{FrenetBox, Scene};
-use corridor_decider::reference_line::LineSample;
+use super::Scene;
+use super::footprint::{FrenetBox, project_near};
+use crate::scenario::Behaviour;
+use corridor_decider::reference_line::{LineSample, SlPoint};
 use corridor_decider::road::{BoundaryType, Neighbour, Side};
 
 /// What a careful planner keeps clear of an obstacle, m: the original's `obstacle_lat_buffer`.
@@ -32,20 +34,26 @@ impl Passage {
     /// Measures from the ego's front bumper on for `distance` metres.
     pub(crate) fn measure(scene: &Scene<'_>, distance: f64) -> Self {
         let (from, to) = (scene.front(), scene.front() + distance);
-        let bodies: Vec<FrenetBox> = scene.standing().filter(|b| b.meets_stations(from, to)).collect();
+        let bodies: Vec<Body> = bodies(scene)
+            .filter(|body| body.ground.meets_stations(from, to))
+            .collect();
         let mut passage = Self {
             strict: f64::MAX,
             roomy: f64::MAX,
         };
         for body in &bodies {
-            let sample = scene.road.line.sample_at(body.s.0);
-            let ground = usable(sample);
-            let here = bodies.iter().filter(|b| b.s.0 <= body.s.0 && b.s.1 >= body.s.0);
-            passage.strict = passage.strict.min(widest(ground, here, 0.0));
-            let near = bodies
-                .iter()
-                .filter(|b| b.meets_stations(body.s.0 - WEAVING, body.s.1 + WEAVING));
-            passage.roomy = passage.roomy.min(widest(ground, near, SIDE_BUFFER));
+            // Between corners all edges are straight, so the way is narrowest at one of them.
+            for corner in &body.outline {
+                let here = bodies.iter().filter_map(|b| b.across(corner.s));
+                let ground = usable(scene.road.line.sample_at(corner.s));
+                passage.strict = passage.strict.min(widest(ground, here));
+            }
+            let ground = usable(scene.road.line.sample_at(body.ground.s.0));
+            let near = bodies.iter().map(|b| b.ground);
+            let near =
+                near.filter(|b| b.meets_stations(body.ground.s.0 - WEAVING, body.ground.s.1 + WEAVING));
+            let kept_clear = near.map(|b| (b.l.0 - SIDE_BUFFER, b.l.1 + SIDE_BUFFER));
+            passage.roomy = passage.roomy.min(widest(ground, kept_clear));
         }
         passage
     }
@@ -80,9 +88,59 @@ fn may_cross(mark: BoundaryType) -> bool {
     !matches!(mark, BoundaryType::SolidYellow | BoundaryType::SolidWhite)
 }
 
-/// The widest gap that `bodies`, each widened by `buffer`, leave of `ground`.
-fn widest<'a>(ground: (f64, f64), bodies: impl Iterator<Item = &'a FrenetBox>, buffer: f64) -> f64 {
-    let mut blocked: Vec<(f64, f64)> = bodies.map(|b| (b.l.0 - buffer, b.l.1 + buffer)).collect();
+/// Something that stands: its corners in the frame of the route's line, and the box around them.
+struct Body {
+    outline: Vec<SlPoint>,
+    ground: FrenetBox,
+}
+
+impl Body {
+    /// Offsets that it covers at station `s`: (rightmost, leftmost).
+    fn across(&self, s: f64) -> Option<(f64, f64)> {
+        let next = self.outline.iter().cycle().skip(1);
+        let mut span: Option<(f64, f64)> = None;
+        for (a, b) in self.outline.iter().zip(next) {
+            if (a.s - s) * (b.s - s) > 0.0 {
+                continue;
+            }
+            // An edge along this very station counts with both its ends.
+            let shares = if (b.s - a.s).abs() > 0.0 {
+                [(s - a.s) / (b.s - a.s); 2]
+            } else {
+                [0.0, 1.0]
+            };
+            for share in shares {
+                let l = a.l + (b.l - a.l) * share;
+                let (low, high) = span.unwrap_or((l, l));
+                span = Some((low.min(l), high.max(l)));
+            }
+        }
+        span
+    }
+}
+
+fn bodies<'a>(scene: &'a Scene<'_>) -> impl Iterator<Item = Body> + 'a {
+    let draft = scene.draft;
+    let obstacles = draft.obstacles.iter().zip(&draft.spots).zip(&scene.boxes);
+    obstacles.filter_map(|((obstacle, spot), ground)| {
+        let Behaviour::Parked(pose) = obstacle.behaviour else {
+            return None;
+        };
+        let corners = obstacle.shape.at(pose);
+        let outline = corners
+            .vertices()
+            .iter()
+            .map(|v| project_near(&scene.road.line, *v, spot.s));
+        Some(Body {
+            outline: outline.collect(),
+            ground: *ground,
+        })
+    })
+}
+
+/// The widest gap that what is blocked, as (rightmost, leftmost), leaves of `ground`.
+fn widest(ground: (f64, f64), blocked: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let mut blocked: Vec<(f64, f64)> = blocked.collect();
     blocked.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (mut free_from, mut best) = (ground.0, 0.0_f64);
     for (right, left) in blocked {

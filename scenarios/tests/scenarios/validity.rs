@@ -261,3 +261,14 @@ fn a_change_of_lane_and_a_goal_have_their_room() {
     limit("goal_beyond_route", &goal(531.0), &goal(529.0));
     assert!(family(&format!("{STREET}{}", goal(529.0))).is_fixed());
 }
+
+/// Two long bodies stand askew, one behind the other's end: at no station is the way narrow, though the boxes
+/// around them overlap.
+#[test]
+fn bodies_askew_are_taken_as_they_stand() {
+    let text = "map='street'\ncruise_speed=8\n[expect]\noutcome='progress_by_gap'\ndistance=150\n\
+                [[parked]]\nlength=12\nwidth=0.5\nahead=80\nl=0.3\nheading=0.4\n\
+                [[parked]]\nlength=12\nwidth=0.5\nahead=80\nl=3.9\nheading=0.4\n";
+    // 3.6 m between them across the road, less the thickness 0.5/cos 0.4: 3.06 m, though the boxes leave nothing.
+    assert_eq!(scenario(text).expect, Expectation::ProgressOrStandstill(150.0));
+}
