@@ -2,7 +2,7 @@
 
 use super::{imported, lane, named, road, section, straight};
 use corridor_decider::geometry::angle;
-use corridor_decider::road::{BoundaryType, Lane, LaneKind, Neighbour, Side};
+use corridor_decider::road::{BoundaryType as B, Lane, LaneKind, Neighbour, Side};
 
 const LEFT_FORWARD: Neighbour = Neighbour {
     side: Side::Left,
@@ -169,7 +169,6 @@ fn marks_are_seen_from_the_lane_and_along_it() {
     let right = lane(-1, "driving", 3.0, &mark(0.0, "broken solid", "white")) + &lane(-2, "driving", 3.0, "");
     let map = imported(&straight(r#"id="1""#, "", &section(0.0, &left, &centre, &right))).map;
     let (ego, oncoming, outer) = (named(&map, "1_0_-1"), named(&map, "1_0_1"), named(&map, "1_0_-2"));
-    use BoundaryType as B;
     // On lane 0 the pair is listed from left to right: the broken line is ours.
     let seen = [10.0, 30.0, 80.0].map(|s| ego.mark(Side::Left, s));
     assert_eq!(seen, [B::Unknown, B::DottedYellow, B::DoubleYellow]);
@@ -204,7 +203,10 @@ fn lane_speeds_rule_over_road_speeds() {
     ] {
         for (name, s) in [("1_0_-1", s), ("1_0_1", 100.0 - s)] {
             let is = speed(name, s);
-            assert!(is == limit || (is - limit).abs() < 1e-12, "{name} at {s}: {is}");
+            assert!(
+                is.total_cmp(&limit).is_eq() || (is - limit).abs() < 1e-12,
+                "{name} at {s}: {is}"
+            );
         }
     }
 }
