@@ -149,6 +149,13 @@ fn element_soup_and_deep_nesting_are_no_trouble() {
 }
 
 #[test]
+fn an_element_of_very_many_attributes_is_refused_at_once() {
+    let attributes: Vec<String> = (0..100_000).map(|k| format!("a{k}='1'")).collect();
+    let text = one_road().replace("<line/>", &format!("<line {}/>", attributes.join(" ")));
+    assert!(message(&text).contains("more than 1000 attributes"));
+}
+
+#[test]
 fn a_missing_file_is_named() {
     let error = opendrive::read_file("no/such.xodr".as_ref())
         .unwrap_err()

@@ -269,3 +269,38 @@ fn cross_sections_are_close_and_lie_on_record_boundaries() {
         assert!(step * a.min(b) < 0.051 && error < 1e-7, "{step} {error}");
     }
 }
+
+/// At a boundary the record that ends rules the section that ends, and a limit holds from where it is met.
+#[test]
+fn boundaries_belong_to_the_side_they_are_seen_from() {
+    let kink = r#"<laneOffset s="0" a="0" b="0" c="0" d="0"/><laneOffset s="50" a="0" b="0.1" c="0" d="0"/>"#;
+    let slow = r#"<speed sOffset="25" max="10"/>"#;
+    let lanes = section(
+        0.0,
+        &lane(1, "driving", 3.0, slow),
+        "",
+        &lane(-1, "driving", 3.0, slow),
+    ) + &section(50.0, "", "", &lane(-1, "driving", 3.0, ""));
+    let map = imported(&straight(r#"id="1""#, "", &(kink.to_owned() + &lanes))).map;
+    let (before, after) = (named(&map, "1_0_-1"), named(&map, "1_1_-1"));
+    assert!(
+        before.points[before.points.len() - 1].theta.abs() < 1e-12,
+        "straight to its end"
+    );
+    assert!(
+        (after.points[0].theta - libm::atan(0.1)).abs() < 1e-12,
+        "aslant from its start"
+    );
+    let boundary = |lane: &Lane| {
+        lane.points
+            .iter()
+            .find(|p| (p.x - 25.0).abs() < 1e-9)
+            .map(|p| p.speed_limit)
+    };
+    assert_eq!(boundary(before), Some(10.0), "the limit begins here");
+    assert_eq!(
+        boundary(named(&map, "1_0_1")),
+        Some(f64::INFINITY),
+        "the limit ends here"
+    );
+}
