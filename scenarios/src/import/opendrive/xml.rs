@@ -56,12 +56,18 @@ impl<'a> Lines<'a> {
 
     /// Refuses elements that would keep the XML reader busy for ever.
     fn check_attribute_counts(&self) -> Result<(), ImportError> {
-        let document = &self.text[self.cut..];
-        for (at, _) in document.match_indices('<') {
-            let tag = document[at + 1..].split(['<', '>']).next().unwrap_or_default();
+        let document = &self.text.as_bytes()[self.cut..];
+        let (mut start, mut attributes) = (0, 0);
+        for (at, byte) in document.iter().enumerate() {
+            match byte {
+                b'<' => (start, attributes) = (at, 0),
+                b'=' => attributes += 1,
+                _ => continue,
+            }
             // Comments and declarations may hold any text.
-            if !tag.starts_with(['!', '?']) && tag.matches('=').nth(MAX_ATTRIBUTES).is_some() {
-                let place = self.place(Place(at));
+            let free = matches!(document.get(start + 1), Some(b'!' | b'?'));
+            if attributes > MAX_ATTRIBUTES && !free {
+                let place = self.place(Place(start));
                 let problem = format!("an element of more than {MAX_ATTRIBUTES} attributes");
                 return Err(ImportError::Xml { place, problem });
             }
