@@ -65,8 +65,23 @@ pub(crate) fn successors<'a>(map: &'a RoadMap, name: &str) -> Vec<&'a str> {
         .collect()
 }
 
+/// The line along lanes by name.
+pub(crate) fn line(map: &RoadMap, names: &[&str]) -> ReferenceLine {
+    along(map, &route(map, names))
+}
+
+fn along(map: &RoadMap, lanes: &[LaneId]) -> ReferenceLine {
+    ReferenceLine::along(map, lanes).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The first lane of a kind.
+pub(crate) fn first(map: &RoadMap, kind: LaneKind) -> &Lane {
+    let lane = map.lanes().iter().find(|lane| lane.kind == kind);
+    lane.unwrap_or_else(|| panic!("no {kind:?} lane"))
+}
+
 /// Handles of lanes by name.
-pub(crate) fn route(map: &RoadMap, names: &[&str]) -> Vec<LaneId> {
+fn route(map: &RoadMap, names: &[&str]) -> Vec<LaneId> {
     names
         .iter()
         .map(|name| map.find(name).unwrap_or_else(|| panic!("no lane `{name}`")))
@@ -105,7 +120,7 @@ pub(crate) fn assert_sound(map: &RoadMap) {
                 lane.name
             );
             if lane.kind.is_drivable() && map.lane(*next).kind.is_drivable() {
-                ReferenceLine::along(map, &[id, *next]).unwrap();
+                along(map, &[id, *next]);
             }
         }
         for pair in lane.points.windows(2) {

@@ -162,3 +162,50 @@ fn speed_limit(road: &Road, lane: &LaneRecord, s: f64) -> f64 {
         .or_else(|| ruling(&road.speeds))
         .unwrap_or(f64::INFINITY)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::geometry::{Parametric, Piece, Shape, Spiral};
+    use super::*;
+    use corridor_decider::geometry::{Pose, Vec2};
+
+    /// A curve beside others, against differences of its positions.
+    #[test]
+    fn the_tangent_beside_a_curve_is_the_derivative_of_the_position() {
+        let spiral = Shape::Spiral(Spiral::new(0.02, -0.05, 60.0).expect("is a spiral"));
+        let cubic = Parametric::new([0.0, 1.0, 0.004, 0.0], [0.0, 0.1, 0.01, -1e-4], 60.0, 64.0);
+        let cubic = Shape::Parametric(cubic.expect("is a cubic"));
+        for shape in [Shape::Line, Shape::Arc { curvature: 0.04 }, spiral, cubic] {
+            let piece = Piece {
+                s: 0.0,
+                length: 60.0,
+                start: Pose::new(1.0, 2.0, 0.5),
+                shape,
+            };
+            let beside = |s: f64| [3.0 + s * (0.2 - s * 0.01), 0.2 - 0.02 * s, -0.02];
+            let position = |s: f64| {
+                let base = piece.at(s);
+                let (sin, cos) = angle::sin_cos(base.theta);
+                Vec2::new(base.x, base.y) + Vec2::new(-sin, cos) * beside(s)[0]
+            };
+            let h = 1e-3;
+            for s in (1..60).map(f64::from) {
+                let (turn, kappa, folded) = tangent(&piece.at(s), beside(s));
+                let (a, at, b) = (position(s - h), position(s), position(s + h));
+                let first = (b - a) / (2.0 * h);
+                let second = (a - at * 2.0 + b) / (h * h);
+                let heading = libm::atan2(first.y, first.x);
+                let speed = first.norm();
+                let expected = (first.x * second.y - first.y * second.x) / (speed * speed * speed);
+                let off = angle::difference(heading, piece.at(s).theta + turn).abs();
+                assert!(off < 1e-6, "{:?} at {s}: heading off by {off}", piece.shape);
+                assert!(
+                    (kappa - expected).abs() < 1e-6,
+                    "{:?} at {s}: {kappa} {expected}",
+                    piece.shape
+                );
+                assert!(!folded);
+            }
+        }
+    }
+}

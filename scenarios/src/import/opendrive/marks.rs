@@ -61,11 +61,12 @@ fn along(
         .iter()
         .zip(ends)
         .map(|(record, end)| (record.s, end, kind(record)));
-    let all: Vec<_> = [unknown].into_iter().chain(known).collect();
-    if forward {
-        all.iter().for_each(|&(from, to, kind)| add(from, to, kind));
-    } else {
-        all.iter().rev().for_each(|&(from, to, kind)| add(from, to, kind));
+    let mut stretches: Vec<_> = [unknown].into_iter().chain(known).collect();
+    if !forward {
+        stretches.reverse();
+    }
+    for (from, to, kind) in stretches {
+        add(from, to, kind);
     }
     if marks.iter().all(|mark| mark.kind == BoundaryType::Unknown) {
         marks.clear();

@@ -4,8 +4,8 @@
 //! signals are not read. Lanes of the result run in driving direction; names are `road_section_lane`, with
 //! sections counted from 0 as in the file.
 //!
-//! The steps: [`xml`](self) cut and parsed, [`read`] into records, lane ends joined by the file's links, each
-//! section sampled into lanes, links checked against the geometry.
+//! The steps: `xml` cuts and parses, `records` checks what the elements say, `topology` joins lane ends by the
+//! file's links, `build` samples each section into lanes, `connect` holds the links against the geometry.
 
 mod budget;
 mod build;

@@ -57,10 +57,17 @@ mod tests {
             coefficients: [a, b, 0.5, 0.0],
         };
         let profile = Profile::new(vec![cubic(10.0, 7.0, 0.0), cubic(1.0, 2.0, 1.0)]);
-        assert_eq!(profile.at(0.5, 0.5), [0.0; 3]);
-        assert_eq!(profile.at(3.0, 3.0), [6.0, 3.0, 1.0]);
-        assert_eq!(profile.at(10.0, 10.0), [7.0, 0.0, 1.0]);
-        // The record that ends at 10 answers when it is asked for.
-        assert_eq!(profile.at(10.0, 9.99), [2.0 + 9.0 + 40.5, 10.0, 1.0]);
+        let cases = [
+            (0.5, 0.5, [0.0; 3]),
+            (3.0, 3.0, [6.0, 3.0, 1.0]),
+            (10.0, 10.0, [7.0, 0.0, 1.0]),
+            // The record that ends at 10 answers when it is asked for.
+            (10.0, 9.99, [2.0 + 9.0 + 40.5, 10.0, 1.0]),
+        ];
+        for (s, ruling, expected) in cases {
+            for (is, expected) in profile.at(s, ruling).into_iter().zip(expected) {
+                assert!((is - expected).abs() < 1e-12, "at {s}: {is} is not {expected}");
+            }
+        }
     }
 }

@@ -3,6 +3,9 @@
 use crate::import::{ImportError, TextPlace};
 use roxmltree::{Document, Node};
 
+/// Most attributes of one element. The format knows about twenty; the XML reader compares each with each.
+const MAX_ATTRIBUTES: usize = 1000;
+
 /// Starts of lines, to turn byte offsets into places for people.
 pub(super) struct Lines<'a> {
     text: &'a str,
@@ -31,6 +34,7 @@ impl<'a> Lines<'a> {
 
     /// The document without what precedes it, parsed.
     pub(super) fn parse(&self) -> Result<Document<'a>, ImportError> {
+        self.check_attribute_counts()?;
         Document::parse(&self.text[self.cut..]).map_err(|error| {
             let first = self.place(Place(0));
             let at = error.pos();
@@ -48,6 +52,27 @@ impl<'a> Lines<'a> {
                 problem: error.to_string(),
             }
         })
+    }
+
+    /// Refuses elements that would keep the XML reader busy for ever.
+    fn check_attribute_counts(&self) -> Result<(), ImportError> {
+        let document = &self.text.as_bytes()[self.cut..];
+        let (mut start, mut attributes) = (0, 0);
+        for (at, byte) in document.iter().enumerate() {
+            match byte {
+                b'<' => (start, attributes) = (at, 0),
+                b'=' => attributes += 1,
+                _ => continue,
+            }
+            // Comments and declarations may hold any text.
+            let free = matches!(document.get(start + 1), Some(b'!' | b'?'));
+            if attributes > MAX_ATTRIBUTES && !free {
+                let place = self.place(Place(start));
+                let problem = format!("an element of more than {MAX_ATTRIBUTES} attributes");
+                return Err(ImportError::Xml { place, problem });
+            }
+        }
+        Ok(())
     }
 
     /// Line and column of a place.

@@ -104,9 +104,9 @@ impl Parametric {
         for _ in 0..50 {
             let excess = self.arc(start, p) - wanted;
             if excess > 0.0 {
-                high = p
+                high = p;
             } else {
-                low = p
+                low = p;
             }
             let (du, dv) = (derivatives(self.u, p)[1], derivatives(self.v, p)[1]);
             let newton = p - excess / (du * du + dv * dv).sqrt();

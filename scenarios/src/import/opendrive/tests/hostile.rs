@@ -46,15 +46,11 @@ fn wrong_values_are_named_with_their_place() {
             r#"has length="-5"; expected 0 to 100000 m"#,
         ),
         (r#"length="100""#, r#"length="1e12""#, "expected 0 to 100000 m"),
+        ("<line/>", r#"<arc curvature="1e9"/>"#, "expected at most 100 1/m"),
+        ("<line/>", "<arc/>", "<arc> has no `curvature`"),
+        ("<line/>", "<wiggle/>", "<geometry> has no form"),
         (
-            r#"<line/>"#,
-            r#"<arc curvature="1e9"/>"#,
-            "expected at most 100 1/m",
-        ),
-        (r#"<line/>"#, r#"<arc/>"#, "<arc> has no `curvature`"),
-        (r#"<line/>"#, r#"<wiggle/>"#, "<geometry> has no form"),
-        (
-            r#"<line/>"#,
+            "<line/>",
             r#"<spiral curvStart="0" curvEnd="99"/>"#,
             "turns by 9900 rad",
         ),
@@ -65,11 +61,11 @@ fn wrong_values_are_named_with_their_place() {
         ),
         (r#"id="-1""#, r#"id="first""#, "expected a whole number"),
         (r#"id="-1""#, "", "<lane> has no `id`"),
-        (r#"<road "#, r#"<road rule="MIDDLE" "#, "expected RHT or LHT"),
-        (r#"laneSection s"#, r#"laneSection t"#, "<laneSection> has no `s`"),
+        ("<road ", r#"<road rule="MIDDLE" "#, "expected RHT or LHT"),
+        ("laneSection s", "laneSection t", "<laneSection> has no `s`"),
         (r#"a="3""#, r#"a="3e7""#, "larger than 5 million cross-sections"),
         (r#"a="3""#, r#"a="1e308""#, "larger than 5 million cross-sections"),
-        (r#"</planView>"#, r#"</planView></road>"#, "not well-formed"),
+        ("</planView>", "</planView></road>", "not well-formed"),
     ];
     for (right, wrong, expected) in cases {
         let text = one_road();
@@ -150,6 +146,13 @@ fn element_soup_and_deep_nesting_are_no_trouble() {
     assert!(message(&deep).contains("<road> has no `id`"));
     let soup = one_road().replace("<left>", "<left><road/><lane/><left/>");
     assert!(message(&soup).contains("<lane> has no `id`"));
+}
+
+#[test]
+fn an_element_of_very_many_attributes_is_refused_at_once() {
+    let attributes: Vec<String> = (0..100_000).map(|k| format!("a{k}='1'")).collect();
+    let text = one_road().replace("<line/>", &format!("<line {}/>", attributes.join(" ")));
+    assert!(message(&text).contains("more than 1000 attributes"));
 }
 
 #[test]

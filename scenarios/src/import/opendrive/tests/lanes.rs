@@ -2,7 +2,7 @@
 
 use super::{imported, lane, named, road, section, straight};
 use corridor_decider::geometry::angle;
-use corridor_decider::road::{BoundaryType, Lane, LaneKind, Neighbour, Side};
+use corridor_decider::road::{BoundaryType as B, Lane, LaneKind, Neighbour, Side};
 
 const LEFT_FORWARD: Neighbour = Neighbour {
     side: Side::Left,
@@ -169,7 +169,6 @@ fn marks_are_seen_from_the_lane_and_along_it() {
     let right = lane(-1, "driving", 3.0, &mark(0.0, "broken solid", "white")) + &lane(-2, "driving", 3.0, "");
     let map = imported(&straight(r#"id="1""#, "", &section(0.0, &left, &centre, &right))).map;
     let (ego, oncoming, outer) = (named(&map, "1_0_-1"), named(&map, "1_0_1"), named(&map, "1_0_-2"));
-    use BoundaryType as B;
     // On lane 0 the pair is listed from left to right: the broken line is ours.
     let seen = [10.0, 30.0, 80.0].map(|s| ego.mark(Side::Left, s));
     assert_eq!(seen, [B::Unknown, B::DottedYellow, B::DoubleYellow]);
@@ -204,7 +203,10 @@ fn lane_speeds_rule_over_road_speeds() {
     ] {
         for (name, s) in [("1_0_-1", s), ("1_0_1", 100.0 - s)] {
             let is = speed(name, s);
-            assert!(is == limit || (is - limit).abs() < 1e-12, "{name} at {s}: {is}");
+            assert!(
+                is.total_cmp(&limit).is_eq() || (is - limit).abs() < 1e-12,
+                "{name} at {s}: {is}"
+            );
         }
     }
 }
@@ -266,4 +268,39 @@ fn cross_sections_are_close_and_lie_on_record_boundaries() {
         let error = step * step * step * step * a.min(b) * a.min(b) * a.min(b) / 384.0;
         assert!(step * a.min(b) < 0.051 && error < 1e-7, "{step} {error}");
     }
+}
+
+/// At a boundary the record that ends rules the section that ends, and a limit holds from where it is met.
+#[test]
+fn boundaries_belong_to_the_side_they_are_seen_from() {
+    let kink = r#"<laneOffset s="0" a="0" b="0" c="0" d="0"/><laneOffset s="50" a="0" b="0.1" c="0" d="0"/>"#;
+    let slow = r#"<speed sOffset="25" max="10"/>"#;
+    let lanes = section(
+        0.0,
+        &lane(1, "driving", 3.0, slow),
+        "",
+        &lane(-1, "driving", 3.0, slow),
+    ) + &section(50.0, "", "", &lane(-1, "driving", 3.0, ""));
+    let map = imported(&straight(r#"id="1""#, "", &(kink.to_owned() + &lanes))).map;
+    let (before, after) = (named(&map, "1_0_-1"), named(&map, "1_1_-1"));
+    assert!(
+        before.points[before.points.len() - 1].theta.abs() < 1e-12,
+        "straight to its end"
+    );
+    assert!(
+        (after.points[0].theta - libm::atan(0.1)).abs() < 1e-12,
+        "aslant from its start"
+    );
+    let boundary = |lane: &Lane| {
+        lane.points
+            .iter()
+            .find(|p| (p.x - 25.0).abs() < 1e-9)
+            .map(|p| p.speed_limit)
+    };
+    assert_eq!(boundary(before), Some(10.0), "the limit begins here");
+    assert_eq!(
+        boundary(named(&map, "1_0_1")),
+        Some(f64::INFINITY),
+        "the limit ends here"
+    );
 }

@@ -75,6 +75,26 @@ fn ids_change_sign_where_two_ends_meet() {
 }
 
 #[test]
+fn lanes_that_end_on_each_other_are_not_joined() {
+    let a = at(
+        "a",
+        0.0,
+        &link("successor", "road", "b", r#"contactPoint="end""#),
+        "-1",
+    );
+    let back = r#"<geometry s="0" x="200" y="0" hdg="3.141592653589793" length="100"><line/></geometry>"#;
+    let lanes = section(0.0, "", "", &lane(-1, "driving", 3.0, ""));
+    let import = imported(&(a + &road(r#"id="b""#, "", back, &lanes)));
+    assert!(successors(&import.map, "a_0_-1").is_empty());
+    let told = "`a_0_-1` and `b_0_-1`: linked lanes that lead against each other";
+    assert!(
+        import.warnings.iter().any(|w| w.contains(told)),
+        "{:?}",
+        import.warnings
+    );
+}
+
+#[test]
 fn dust_sections_are_bridged() {
     let lanes = section(0.0, "", "", &linked(-1, -1, -2))
         + &section(50.0, "", "", &(lane(-1, "none", 0.0, "") + &linked(-2, -1, -3)))
