@@ -40,9 +40,16 @@ impl Corridor {
             .map(|k| {
                 let (first, last) = ((k * stride).saturating_sub(stride - 1), k * stride + stride - 1);
                 let near = &bound.points[first..=last.min(bound.points.len() - 1)];
-                near.iter().fold((-f64::MAX, f64::MAX), |(lo, hi), p| {
+                let (lo, hi) = near.iter().fold((-f64::MAX, f64::MAX), |(lo, hi), p| {
                     (lo.max(p.l_min), hi.min(p.l_max))
-                })
+                });
+                let here = &bound.points[k * stride];
+                // Where the corridor jumps aside between two stations they need not have anything in common.
+                if lo <= hi {
+                    (lo, hi)
+                } else {
+                    (here.l_min, here.l_max)
+                }
             })
             .collect();
         let config = &scene.config.path;
