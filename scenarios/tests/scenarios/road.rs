@@ -109,6 +109,7 @@ pub(crate) fn dual() -> RoadMap {
     neighbours(&mut lanes, left, Side::Left, true, oncoming);
     for lane in &mut lanes[left as usize..oncoming as usize] {
         lane.left_marks[0].kind = BoundaryType::SolidWhite;
+        lane.right_marks[0].kind = BoundaryType::DottedWhite;
     }
     lanes.push(strip("stopping", -WIDTH / 2.0 - 1.5, 3.0, LaneKind::Stop));
     RoadMap::new(lanes, vec![Junction { name: "j".to_owned() }]).unwrap()
