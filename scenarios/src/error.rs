@@ -78,7 +78,7 @@ pub enum ScenarioError {
     #[error("{place}: {problem}{}", place.excerpt())]
     Schema {
         /// Where.
-        place: Place,
+        place: Box<Place>,
         /// What is wrong and what is expected.
         problem: String,
     },
@@ -86,7 +86,7 @@ pub enum ScenarioError {
     #[error("{place}: no map `{map}`: {hint}{}", place.excerpt())]
     MapNotFound {
         /// Where it is asked for.
-        place: Place,
+        place: Box<Place>,
         /// The map as written.
         map: String,
         /// Where it was looked for, or what there is.
@@ -96,7 +96,7 @@ pub enum ScenarioError {
     #[error("{place}: map `{map}`: {problem}{}", place.excerpt())]
     MapInvalid {
         /// Where it is asked for.
-        place: Place,
+        place: Box<Place>,
         /// The map as written.
         map: String,
         /// What is wrong with it.
@@ -106,7 +106,7 @@ pub enum ScenarioError {
     #[error("{place}: {problem}{}", place.excerpt())]
     Route {
         /// Where it is asked for.
-        place: Place,
+        place: Box<Place>,
         /// What is wrong and what there is.
         problem: String,
     },

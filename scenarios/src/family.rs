@@ -211,7 +211,7 @@ fn road(
         let start = match &file.ego.lane {
             Some(name) => find(map, name, place)?,
             None => route::first_lane(map).ok_or_else(|| ScenarioError::Route {
-                place: place(&file.map),
+                place: Box::new(place(&file.map)),
                 problem: "the map has no drivable lane outside junctions: name one as `lane` in `[ego]`"
                     .to_owned(),
             })?,
@@ -225,7 +225,9 @@ fn road(
         _ => None,
     };
     Road::new(Arc::clone(map), route, side, length).map_err(|error| ScenarioError::Route {
-        place: place(file.route.first().or(file.ego.lane.as_ref()).unwrap_or(&file.map)),
+        place: Box::new(place(
+            file.route.first().or(file.ego.lane.as_ref()).unwrap_or(&file.map),
+        )),
         problem: error.to_string(),
     })
 }
@@ -250,7 +252,7 @@ fn named_route(
                 .map(|id| map.lane(*id).name.as_str())
                 .collect();
             return Err(ScenarioError::Route {
-                place: place(name),
+                place: Box::new(place(name)),
                 problem: format!(
                     "lane `{}` does not follow `{}`: expected {}",
                     name.get_ref(),
@@ -264,7 +266,7 @@ fn named_route(
     match &file.ego.lane {
         Some(lane) if file.route.first().map(Spanned::get_ref) != Some(lane.get_ref()) => {
             Err(ScenarioError::Route {
-                place: place(lane),
+                place: Box::new(place(lane)),
                 problem: format!("the route does not start in the ego's lane `{}`", lane.get_ref()),
             })
         }
@@ -278,7 +280,7 @@ fn find(
     place: &dyn Fn(&Spanned<String>) -> Place,
 ) -> Result<LaneId, ScenarioError> {
     let error = |problem| ScenarioError::Route {
-        place: place(name),
+        place: Box::new(place(name)),
         problem,
     };
     let found = map.find(name.get_ref()).ok_or_else(|| {

@@ -64,7 +64,7 @@ impl MapCache {
             return Ok(found.clone());
         }
         let not_found = |hint: String| ScenarioError::MapNotFound {
-            place: place.clone(),
+            place: Box::new(place.clone()),
             map: name.to_owned(),
             hint,
         };
@@ -87,7 +87,7 @@ impl MapCache {
             (name.to_owned(), text.into())
         };
         let loaded = read(text).map_err(|problem| ScenarioError::MapInvalid {
-            place: place.clone(),
+            place: Box::new(place.clone()),
             map: name.to_owned(),
             problem,
         })?;

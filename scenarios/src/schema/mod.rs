@@ -87,7 +87,7 @@ impl ScenarioFile {
     /// [`ScenarioError::Schema`] with the place of the first mistake.
     pub fn parse(text: &str, file: &str) -> Result<Self, ScenarioError> {
         toml::from_str(text).map_err(|error| ScenarioError::Schema {
-            place: Place::of(text, file, error.span().unwrap_or(0..0)),
+            place: Box::new(Place::of(text, file, error.span().unwrap_or(0..0))),
             problem: error.message().to_owned(),
         })
     }

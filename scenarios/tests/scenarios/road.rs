@@ -39,7 +39,10 @@ fn lane(name: &str, (from, to): (f64, f64), y: f64, ahead: bool, road: (f64, f64
         kind: LaneKind::Driving,
         road: "road".to_owned(),
         junction: None,
-        points: (0..=(length * 2.0) as u32).map(point).collect(),
+        points: (0..=1200)
+            .take_while(|k| f64::from(*k) * 0.5 <= length)
+            .map(point)
+            .collect(),
         left_marks: mark(BoundaryType::DottedWhite),
         right_marks: mark(BoundaryType::SolidWhite),
         neighbours: [None; 4],
@@ -106,6 +109,7 @@ pub(crate) fn dual() -> RoadMap {
     neighbours(&mut lanes, left, Side::Left, true, oncoming);
     for lane in &mut lanes[left as usize..oncoming as usize] {
         lane.left_marks[0].kind = BoundaryType::SolidWhite;
+        lane.right_marks[0].kind = BoundaryType::DottedWhite;
     }
     lanes.push(strip("stopping", -WIDTH / 2.0 - 1.5, 3.0, LaneKind::Stop));
     RoadMap::new(lanes, vec![Junction { name: "j".to_owned() }]).unwrap()

@@ -239,16 +239,33 @@ fn a_solid_line_is_not_crossed() {
              [[parked]]\nwidth=3.4\nahead=90\n"
         )
     };
-    // From the right lane one passes on the left one; that one is hemmed in only if its right is taken too.
+    // From the right lane one passes on the left one.
     assert!(matches!(
         scenario(&blocked("right_a")).expect,
         Expectation::Progress(_)
     ));
+    // From the left lane one passes on the right one, but never over the solid line to the left.
+    assert!(matches!(
+        scenario(&blocked("left_a")).expect,
+        Expectation::Progress(_)
+    ));
     let both = format!(
-        "{}[[parked]]\nlane='left'\nwidth=3.4\nahead=90\n",
-        blocked("right_a")
+        "{}[[parked]]\nlane='right'\nwidth=3.4\nahead=90\n",
+        blocked("left_a")
     );
     assert_eq!(scenario(&both).expect, Expectation::Standstill);
+}
+
+#[test]
+fn nobody_pulls_over_in_a_junction() {
+    // Comfortable braking from 10 m/s ends 28.89 m ahead of the axle. From 470 m that leaves 1 m before the junction,
+    // and behind it what lies between 520 m and three metres beyond the destination.
+    let at = |s: f64, ahead: f64| {
+        format!("map='street'\ncruise_speed=10\n[ego]\ns={s}\n[command]\nkind='pull_over'\nahead={ahead}\n")
+    };
+    assert_eq!(rejection(&at(470.0, 60.0)).reason(), "no_kerb_gap");
+    scenario(&at(470.0, 65.0));
+    scenario(&at(450.0, 60.0));
 }
 
 #[test]
