@@ -329,8 +329,9 @@ function paintScaleBar(context, map, width, height) {
   context.stroke();
   label(context, `${length} m`, right - (length * map.scale) / 2, y - 4, { align: "center", rim: "ground" });
   if (!state.turn) return;
-  const [cx, cy] = [width - 24, 24];
+  const [cx, cy] = [width - 26, 30];
   context.lineWidth = 1.3;
+  context.strokeStyle = colour("text");
   arrow(context, [cx + 10 * Math.sin(-map.turn), cy + 10 * Math.cos(-map.turn)], [cx - 10 * Math.sin(-map.turn), cy - 10 * Math.cos(-map.turn)]);
   label(context, "N", cx - 18 * Math.sin(-map.turn), cy - 18 * Math.cos(-map.turn), { align: "center", base: "middle", rim: "ground" });
 }
