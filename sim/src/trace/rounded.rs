@@ -69,7 +69,6 @@ fn decimal(text: &mut [u8; LENGTH], value: f64) -> usize {
 }
 
 fn last_digit(number: u64) -> u8 {
-    #[expect(clippy::cast_possible_truncation, reason = "a digit")]
     let digit = (number % 10) as u8;
     b'0' + digit
 }

@@ -237,6 +237,7 @@ pointer(chartView, {
     return near.map((event) => `${fixed(event.t, 1)} s  ${event.kind}: ${event.text}`).join("\n") || null;
   },
   wheel(factor, px) {
+    if (!ticks.length) return;
     const { width } = chartView;
     const t = span.from + ((px - CHART.left) / (width - CHART.left - CHART.right)) * (span.to - span.from);
     const [first, last] = [timeOf(0), timeOf(ticks.length - 1)];

@@ -309,6 +309,7 @@ function frenetText(x, y) {
 
 pointer(frenetView, {
   drag(dx, dy) {
+    if (!ticks.length) return;
     const { w, h } = frenetMap(frenetView.width, frenetView.height);
     const along = (dx / w) * (window_.ahead + window_.behind);
     window_.ahead -= along;
@@ -319,6 +320,7 @@ pointer(frenetView, {
     window_.manual = true;
   },
   wheel(factor, x, y, event) {
+    if (!ticks.length) return;
     const [s, l] = frenetMap(frenetView.width, frenetView.height).inverse(x, y);
     const from = s - ticks[state.k].sl[0];
     if (event.shiftKey || event.altKey) {

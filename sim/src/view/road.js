@@ -383,7 +383,9 @@ function obstacleText(obstacle, tick) {
 pointer(roadView, {
   drag(dx, dy) { camera.panX += dx; camera.panY += dy; },
   wheel(factor, x, y) {
+    if (!ticks.length) return;
     const { width, height } = roadView;
+    roadMap(width, height); // after a reset the scale is not known yet
     const scale = Math.max(0.3, Math.min(400, camera.scale * factor));
     const [left, top] = [width * (state.turn ? EGO_FROM_LEFT : 0.5) + camera.panX, height / 2 + camera.panY];
     const grown = scale / camera.scale - 1;
