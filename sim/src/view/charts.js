@@ -139,8 +139,9 @@ function paintRow(context, row, x, top, height, width) {
     context.globalAlpha = Math.abs(value) < 1e-9 ? 0.5 : 0.14;
     context.beginPath(); context.moveTo(left, y(value)); context.lineTo(right, y(value)); context.stroke();
     context.globalAlpha = 1;
-    // Half a line of room, so that the numbers of two rows do not touch.
-    if (y(value) > top + 4 && y(value) < top + height - 3) context.fillText(fixed(value, steps.decimals), left - 5, y(value));
+    // Room between the numbers of a row, and half a line to the next row; zero always has its number.
+    const crowded = Math.abs(value) > 1e-9 && Math.abs(y(value) - y(0)) < 11;
+    if (y(value) > top + 4 && y(value) < top + height - 3 && !crowded) context.fillText(fixed(value, steps.decimals), left - 5, y(value));
   }
   context.save();
   context.beginPath();
