@@ -9,47 +9,48 @@ use crate::trace::{TickRecord, Trace};
 use corridor_decider::decision::{Candidate, Decision};
 use corridor_decider::reference_line::LineQuery;
 use corridor_decider::tasks::path_bounds::{BoundPoint, EdgeCause, PathBound};
-use std::fmt::{self, Write};
+use std::fmt::{self, Display, Formatter};
 
 /// Events this near are told with a tick, s.
 const EVENTS_WITHIN: f64 = 1.0;
 
 /// The tick at `time` in words: the last that started then or before, else the first.
 pub fn tick(trace: &Trace, time: f64) -> String {
-    let Some(k) = trace.tick_at(time) else {
-        return "the trace holds no tick\n".to_owned();
-    };
-    let mut out = String::new();
-    write(&mut out, trace, &trace.ticks[k]).expect("writing to a string does not fail");
-    out
+    match trace.tick_at(time) {
+        Some(k) => Explanation(trace, &trace.ticks[k]).to_string(),
+        None => "the trace holds no tick\n".to_owned(),
+    }
 }
 
-fn write(out: &mut String, trace: &Trace, tick: &TickRecord) -> fmt::Result {
-    let decision = &tick.decision;
-    let header = &trace.header;
-    writeln!(
-        out,
-        "{} (seed {}), tick {} at {:.2} s",
-        header.scenario, header.seed, tick.frame.tick, tick.frame.time
-    )?;
-    writeln!(out)?;
-    situation(out, trace, tick)?;
-    writeln!(out, "\ncandidates")?;
-    for (k, candidate) in decision.candidates.iter().enumerate() {
-        describe(out, trace, candidate, decision.chosen == Some(k))?;
+struct Explanation<'a>(&'a Trace, &'a TickRecord);
+
+impl Display for Explanation<'_> {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        let Self(trace, tick) = self;
+        let (header, decision) = (&trace.header, &tick.decision);
+        writeln!(
+            out,
+            "{} (seed {}), tick {} at {:.2} s\n",
+            header.scenario, header.seed, tick.frame.tick, tick.frame.time
+        )?;
+        situation(out, trace, tick)?;
+        writeln!(out, "\ncandidates")?;
+        for (k, candidate) in decision.candidates.iter().enumerate() {
+            describe(out, trace, candidate, decision.chosen == Some(k))?;
+        }
+        if let Some(candidate) = decision.chosen.map(|k| &decision.candidates[k]) {
+            writeln!(out, "\nlimits of {}", candidate.bound.label)?;
+            stretches(out, trace, &candidate.bound, "left", |p| (p.left, p.l_max))?;
+            stretches(out, trace, &candidate.bound, "right", |p| (p.right, p.l_min))?;
+        }
+        writeln!(out)?;
+        conclusion(out, trace, decision)?;
+        events(out, trace, tick.frame.time)
     }
-    if let Some(candidate) = decision.chosen.map(|k| &decision.candidates[k]) {
-        writeln!(out, "\nlimits of {}", candidate.bound.label)?;
-        stretches(out, trace, &candidate.bound, "left", |p| (p.left, p.l_max))?;
-        stretches(out, trace, &candidate.bound, "right", |p| (p.right, p.l_min))?;
-    }
-    writeln!(out)?;
-    conclusion(out, trace, decision)?;
-    events(out, trace, tick.frame.time)
 }
 
 /// Ego, command, line and what is around.
-fn situation(out: &mut String, trace: &Trace, tick: &TickRecord) -> fmt::Result {
+fn situation(out: &mut Formatter<'_>, trace: &Trace, tick: &TickRecord) -> fmt::Result {
     let (frame, ego) = (&tick.frame, &tick.frame.ego);
     let line = trace.line(tick);
     let at = line.to_frenet(ego.pose.position());
@@ -97,7 +98,7 @@ fn situation(out: &mut String, trace: &Trace, tick: &TickRecord) -> fmt::Result 
 }
 
 /// One candidate: how long, how narrow, what became of it.
-fn describe(out: &mut String, trace: &Trace, candidate: &Candidate, chosen: bool) -> fmt::Result {
+fn describe(out: &mut Formatter<'_>, trace: &Trace, candidate: &Candidate, chosen: bool) -> fmt::Result {
     let bound = &candidate.bound;
     let mark = if chosen { '*' } else { ' ' };
     let label = bound.label.to_string();
@@ -129,7 +130,7 @@ fn describe(out: &mut String, trace: &Trace, candidate: &Candidate, chosen: bool
 
 /// One side of a bound by cause, with the range of the limit in each stretch.
 fn stretches(
-    out: &mut String,
+    out: &mut Formatter<'_>,
     trace: &Trace,
     bound: &PathBound,
     side: &str,
@@ -154,7 +155,7 @@ fn stretches(
 }
 
 /// Path, stop reason, outcome.
-fn conclusion(out: &mut String, trace: &Trace, decision: &Decision) -> fmt::Result {
+fn conclusion(out: &mut Formatter<'_>, trace: &Trace, decision: &Decision) -> fmt::Result {
     match (decision.path.first(), decision.path.last()) {
         (Some(first), Some(last)) => {
             let kappa = decision
@@ -193,7 +194,7 @@ fn conclusion(out: &mut String, trace: &Trace, decision: &Decision) -> fmt::Resu
 }
 
 /// What happened around `time`.
-fn events(out: &mut String, trace: &Trace, time: f64) -> fmt::Result {
+fn events(out: &mut Formatter<'_>, trace: &Trace, time: f64) -> fmt::Result {
     let near = trace
         .ticks
         .iter()

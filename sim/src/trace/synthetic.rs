@@ -271,7 +271,7 @@ fn obstacle(line: &ReferenceLine, id: u32, time: f64) -> Obstacle {
             ObstacleKind::Car,
             place(
                 95.0 + 6.0 * f64::from(id),
-                if id % 2 == 0 { -3.0 } else { 6.5 },
+                if id.is_multiple_of(2) { -3.0 } else { 6.5 },
                 0.02,
             ),
             body(2.2, 0.9),

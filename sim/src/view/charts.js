@@ -1,6 +1,6 @@
 // Quantities over time, one under the other over one axis, with their limits; a click jumps.
 
-const CHART = { left: 44, right: 86, top: 20, bottom: 26, gap: 9 };
+const CHART = { left: 44, right: 94, top: 24, bottom: 26, gap: 6 };
 
 const series = run.series;
 const rows = [
@@ -45,22 +45,35 @@ for (const row of rows) row.extent = extent(row);
 
 const chartX = (width) => (t) => CHART.left + ((t - span.from) / (span.to - span.from)) * (width - CHART.left - CHART.right);
 
-/// Which bound was driven when, as a band of its colours; a hatched end where the decider fell back.
+/// Stretches of ticks with the same colour; ticks without one are left out.
+function runsOf(inkOf) {
+  const runs = [];
+  for (const tick of ticks) {
+    const ink = inkOf(tick);
+    const last = runs[runs.length - 1];
+    if (last && last.ink === ink && tick.t - last.to < run.tick / 2) last.to = tick.t + run.tick;
+    else if (ink) runs.push({ from: tick.t, to: tick.t + run.tick, ink });
+  }
+  return runs;
+}
+
+const chosenRuns = runsOf((tick) => {
+  const chosen = tick.candidates[tick.chosen];
+  return chosen ? labelColour(run.labels[chosen.label]) : "line";
+});
+const abnormalRuns = runsOf((tick) => (tick.normal ? null : "bad"));
+
+/// Which bound was driven when, as a band of its colours; underlined where the decider fell back.
 function paintLabelBand(context, x, width) {
   const [top, height] = [6, 8];
-  for (let k = 0; k < ticks.length; k++) {
-    const tick = ticks[k];
-    const from = Math.max(x(tick.t), CHART.left);
-    const to = Math.min(x(tick.t + run.tick), width - CHART.right);
-    if (to <= from) continue;
-    const chosen = tick.candidates[tick.chosen];
-    context.fillStyle = chosen ? colour(labelColour(run.labels[chosen.label])) : colour("line");
-    context.fillRect(from, top, to - from + 0.5, height);
-    if (!tick.normal) {
-      context.fillStyle = colour("bad");
-      context.fillRect(from, top + height, to - from + 0.5, 3);
-    }
-  }
+  const bar = (from, to, ink, y, tall) => {
+    const [left, right] = [Math.max(x(from), CHART.left), Math.min(x(to), width - CHART.right)];
+    if (right <= left) return;
+    context.fillStyle = colour(ink);
+    context.fillRect(left, y, right - left, tall);
+  };
+  for (const { from, to, ink } of chosenRuns) bar(from, to, ink, top, height);
+  for (const { from, to, ink } of abnormalRuns) bar(from, to, ink, top + height + 1, 4);
   context.fillStyle = colour("soft");
   context.textAlign = "left";
   context.textBaseline = "middle";
@@ -114,7 +127,9 @@ function paintRow(context, row, x, top, height, width) {
   const [left, right] = [CHART.left, width - CHART.right];
   const [low, high] = row.extent;
   const y = (value) => top + ((high - value) / (high - low)) * height;
-  const steps = roundSteps(low, high, Math.max(2, height / 26));
+  const steps = roundSteps(low, high, Math.max(3, height / 22));
+  context.fillStyle = colour("ground");
+  context.fillRect(left, top, right - left, height);
   context.fillStyle = colour("soft");
   context.strokeStyle = colour("soft");
   context.lineWidth = 1;
@@ -124,22 +139,24 @@ function paintRow(context, row, x, top, height, width) {
     context.globalAlpha = Math.abs(value) < 1e-9 ? 0.5 : 0.14;
     context.beginPath(); context.moveTo(left, y(value)); context.lineTo(right, y(value)); context.stroke();
     context.globalAlpha = 1;
-    context.fillText(fixed(value, steps.decimals), left - 5, y(value));
+    // Room between the numbers of a row, and half a line to the next row; zero always has its number.
+    const crowded = Math.abs(value) > 1e-9 && Math.abs(y(value) - y(0)) < 11;
+    if (y(value) > top + 4 && y(value) < top + height - 3 && !crowded) context.fillText(fixed(value, steps.decimals), left - 5, y(value));
   }
   context.save();
   context.beginPath();
-  context.rect(left, top - 2, right - left, height + 4);
+  context.rect(left, top, right - left, height);
   context.clip();
   paintLimits(context, row, y, left, right);
   for (const other of row.more ?? []) paintCurve(context, x, y, other.values, other.ink, 1.2, other.dash);
   if (row.plan) paintPlannedSpeed(context, x, y);
   paintCurve(context, x, y, row.values, "accent", 1.7);
   context.restore();
-  paintReadout(context, row, x, y, top, right);
+  paintReadout(context, row, x, y, top, height, right);
 }
 
 /// Name, value and what belongs to it, beside the row; a dot on the curve.
-function paintReadout(context, row, x, y, top, right) {
+function paintReadout(context, row, x, y, top, height, right) {
   const value = row.values[state.k];
   const bad = violates(row, value);
   context.textAlign = "left";
@@ -151,14 +168,14 @@ function paintReadout(context, row, x, y, top, right) {
   context.fillText(`${fixed(value)} ${row.unit}`, right + 8, top + 13);
   context.font = FONT;
   const note = row.note?.(value, state.k);
-  if (note && value !== null) {
+  if (note && value !== null && height >= 38) {
     context.fillStyle = colour("soft");
     context.fillText(note, right + 8, top + 26, CHART.right - 10);
   }
   const at = x(timeOf(state.k));
   if (value === null || at < CHART.left || at > right) return;
   context.beginPath();
-  context.arc(at, Math.max(top - 2, y(value)), 3, 0, 7);
+  context.arc(at, Math.max(top + 1, y(value)), 3, 0, 7);
   context.fillStyle = colour(bad ? "bad" : "accent");
   context.fill();
 }
@@ -190,9 +207,9 @@ function paintCharts(context, width, height) {
   if (!ticks.length) return;
   const x = chartX(width);
   const tall = (height - CHART.top - CHART.bottom - CHART.gap * (rows.length - 1)) / rows.length;
-  paintTimeAxis(context, x, width, height);
   paintLabelBand(context, x, width);
   rows.forEach((row, k) => paintRow(context, row, x, CHART.top + k * (tall + CHART.gap), tall, width));
+  paintTimeAxis(context, x, width, height);
   for (const event of run.events) {
     const at = x(event.t);
     if (at < CHART.left || at > width - CHART.right) continue;
@@ -221,6 +238,7 @@ pointer(chartView, {
     return near.map((event) => `${fixed(event.t, 1)} s  ${event.kind}: ${event.text}`).join("\n") || null;
   },
   wheel(factor, px) {
+    if (!ticks.length) return;
     const { width } = chartView;
     const t = span.from + ((px - CHART.left) / (width - CHART.left - CHART.right)) * (span.to - span.from);
     const [first, last] = [timeOf(0), timeOf(ticks.length - 1)];

@@ -5,11 +5,11 @@ const GUTTER = { left: 44, right: 10, top: 8, bottom: 30 };
 const BEHIND = 14; // metres shown behind the ego
 const AHEAD = 112; // and ahead of it
 
-const window_ = { ahead: AHEAD, behind: BEHIND, low: null, high: null };
+const range = { ahead: AHEAD, behind: BEHIND, low: null, high: null };
 const frenetView = canvasView("frenet", paintFrenet);
 
 function frenetReset() {
-  Object.assign(window_, { ahead: AHEAD, behind: BEHIND, low: null, high: null });
+  Object.assign(range, { ahead: AHEAD, behind: BEHIND, low: null, high: null });
 }
 
 /// Offsets worth showing by default: the road, with a little room, and the bounds.
@@ -26,22 +26,22 @@ function offsets(tick) {
 
 function frenetMap(width, height) {
   const tick = ticks[state.k];
-  if (window_.low === null || state.follow) {
+  if (range.low === null || state.follow) {
     const wanted = offsets(tick);
-    if (!window_.manual || window_.low === null) {
-      [window_.low, window_.high] = wanted;
-      window_.manual = false;
+    if (!range.manual || range.low === null) {
+      [range.low, range.high] = wanted;
+      range.manual = false;
     }
   }
-  const [s0, s1] = [tick.sl[0] - window_.behind, tick.sl[0] + window_.ahead];
+  const [s0, s1] = [tick.sl[0] - range.behind, tick.sl[0] + range.ahead];
   const [w, h] = [width - GUTTER.left - GUTTER.right, height - GUTTER.top - GUTTER.bottom];
   const map = (s, l) => [
     GUTTER.left + ((s - s0) / (s1 - s0)) * w,
-    GUTTER.top + ((window_.high - l) / (window_.high - window_.low)) * h,
+    GUTTER.top + ((range.high - l) / (range.high - range.low)) * h,
   ];
   map.inverse = (x, y) => [
     s0 + ((x - GUTTER.left) / w) * (s1 - s0),
-    window_.high - ((y - GUTTER.top) / h) * (window_.high - window_.low),
+    range.high - ((y - GUTTER.top) / h) * (range.high - range.low),
   ];
   return Object.assign(map, { s0, s1, w, h });
 }
@@ -78,7 +78,7 @@ function paintAxes(context, map, width, height) {
   context.lineWidth = 1;
   context.textBaseline = "middle";
   context.textAlign = "right";
-  const lateral = roundSteps(window_.low, window_.high, map.h / 26);
+  const lateral = roundSteps(range.low, range.high, map.h / 26);
   for (const l of lateral.values) {
     const y = map(0, l)[1];
     context.globalAlpha = Math.abs(l) < 1e-9 ? 0.5 : 0.14;
@@ -271,11 +271,11 @@ function edgeAt(map, tick, x, y) {
   let best = null;
   for (const item of shown(tick)) {
     for (const [side, edge] of [["left", item.candidate.left], ["right", item.candidate.right]]) {
-      const run_ = causesOf(edge).find(({ from, to }) => s >= from && s <= to);
-      const part = run_ && stretch(edge, s, s);
+      const found = causesOf(edge).find(({ from, to }) => s >= from && s <= to);
+      const part = found && stretch(edge, s, s);
       if (!part || part.length < 2) continue;
       const distance = Math.abs(map(s, part[1])[1] - y) - (item.k === tick.chosen ? 3 : 0);
-      if (!best || distance < best.distance) best = { ...item, side, edge, run: run_, s, l: part[1], distance };
+      if (!best || distance < best.distance) best = { ...item, side, edge, run: found, s, l: part[1], distance };
     }
   }
   return best && best.distance < 14 ? best : null;
@@ -309,28 +309,30 @@ function frenetText(x, y) {
 
 pointer(frenetView, {
   drag(dx, dy) {
+    if (!ticks.length) return;
     const { w, h } = frenetMap(frenetView.width, frenetView.height);
-    const along = (dx / w) * (window_.ahead + window_.behind);
-    window_.ahead -= along;
-    window_.behind += along;
-    const across = (dy / h) * (window_.high - window_.low);
-    window_.low += across;
-    window_.high += across;
-    window_.manual = true;
+    const along = (dx / w) * (range.ahead + range.behind);
+    range.ahead -= along;
+    range.behind += along;
+    const across = (dy / h) * (range.high - range.low);
+    range.low += across;
+    range.high += across;
+    range.manual = true;
   },
   wheel(factor, x, y, event) {
+    if (!ticks.length) return;
     const [s, l] = frenetMap(frenetView.width, frenetView.height).inverse(x, y);
     const from = s - ticks[state.k].sl[0];
     if (event.shiftKey || event.altKey) {
-      window_.low = l + (window_.low - l) / factor;
-      window_.high = l + (window_.high - l) / factor;
-      window_.manual = true;
+      range.low = l + (range.low - l) / factor;
+      range.high = l + (range.high - l) / factor;
+      range.manual = true;
       return;
     }
-    const length = (window_.ahead + window_.behind) / factor;
+    const length = (range.ahead + range.behind) / factor;
     if (length < 2 || length > 5000) return;
-    window_.ahead = from + (window_.ahead - from) / factor;
-    window_.behind = -from + (window_.behind + from) / factor;
+    range.ahead = from + (range.ahead - from) / factor;
+    range.behind = -from + (range.behind + from) / factor;
   },
   hover: frenetText,
   reset: frenetReset,

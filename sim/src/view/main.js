@@ -9,7 +9,7 @@ function play() {
   state.playing = true;
   lastFrame = performance.now();
   played = 0;
-  byId("play").textContent = "⏸";
+  byId("play").textContent = "❚❚";
   requestAnimationFrame(step);
 }
 
@@ -48,7 +48,8 @@ function buildChips() {
     }, element("i"), text);
     return { chip, text };
   });
-  const causes = ["lane_line", "borrowed_lane", "road_edge", "ego", "obstacle", "lane_change_zone", "pull_over_target", "unbounded"];
+  const edges = ticks.flatMap((tick) => tick.candidates.flatMap(({ left, right }) => [...left.classes, ...right.classes]));
+  const causes = [...new Set(edges)].sort();
   followers.push(() => {
     const tick = ticks[state.k];
     const now = tick.candidates.map((candidate) => run.labels[candidate.label]);

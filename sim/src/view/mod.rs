@@ -28,6 +28,7 @@ const SCRIPTS: [&str; 7] = [
 ];
 
 /// The page of a run. `#t=12.3` at the end of its address opens it at that time.
+#[expect(clippy::missing_panics_doc, reason = "plain data always serialise")]
 pub fn page(trace: &Trace) -> String {
     let data = serde_json::to_string(&data::Page::new(trace)).expect("plain data always serialise");
     // In JSON `<` stands only inside strings, where its escape means the same; so no text of a scenario can end

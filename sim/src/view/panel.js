@@ -79,7 +79,7 @@ function jump(t) {
 }
 
 function metricRow(metric) {
-  const judged = metric.threshold !== null || metric.gate;
+  const judged = metric.value !== null && (metric.threshold !== null || metric.gate);
   const mark = !judged ? "" : metric.pass ? "✓" : "✗";
   const kind = !judged ? null : metric.pass ? "pass" : metric.gate ? "fail" : "warn";
   const worst = metric.worst_t === null ? "" : `${fixed(metric.worst_t, 1)} s`;

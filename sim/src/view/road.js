@@ -329,8 +329,9 @@ function paintScaleBar(context, map, width, height) {
   context.stroke();
   label(context, `${length} m`, right - (length * map.scale) / 2, y - 4, { align: "center", rim: "ground" });
   if (!state.turn) return;
-  const [cx, cy] = [width - 24, 24];
+  const [cx, cy] = [width - 26, 30];
   context.lineWidth = 1.3;
+  context.strokeStyle = colour("text");
   arrow(context, [cx + 10 * Math.sin(-map.turn), cy + 10 * Math.cos(-map.turn)], [cx - 10 * Math.sin(-map.turn), cy - 10 * Math.cos(-map.turn)]);
   label(context, "N", cx - 18 * Math.sin(-map.turn), cy - 18 * Math.cos(-map.turn), { align: "center", base: "middle", rim: "ground" });
 }
@@ -382,7 +383,9 @@ function obstacleText(obstacle, tick) {
 pointer(roadView, {
   drag(dx, dy) { camera.panX += dx; camera.panY += dy; },
   wheel(factor, x, y) {
+    if (!ticks.length) return;
     const { width, height } = roadView;
+    roadMap(width, height); // after a reset the scale is not known yet
     const scale = Math.max(0.3, Math.min(400, camera.scale * factor));
     const [left, top] = [width * (state.turn ? EGO_FROM_LEFT : 0.5) + camera.panX, height / 2 + camera.panY];
     const grown = scale / camera.scale - 1;

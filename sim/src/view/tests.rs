@@ -101,3 +101,16 @@ fn a_page_to_look_at() {
     let path = std::env::var("CORRIDOR_PAGE").unwrap();
     std::fs::write(path, page(&synthetic::trace(230, 20))).unwrap();
 }
+
+/// Writes pages at the edge of what there is, where `CORRIDOR_PAGE` says.
+#[test]
+#[ignore = "for looking at: set CORRIDOR_PAGE to a file name"]
+fn an_empty_page_to_look_at() {
+    let mut trace = synthetic::trace(1, 3);
+    let path = std::env::var("CORRIDOR_PAGE").unwrap();
+    std::fs::write(format!("{path}.one.html"), page(&trace)).unwrap();
+    trace.ticks.clear();
+    trace.verdict = None;
+    trace.truncated = true;
+    std::fs::write(format!("{path}.none.html"), page(&trace)).unwrap();
+}

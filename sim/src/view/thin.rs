@@ -2,8 +2,8 @@
 
 use corridor_decider::geometry::Vec2;
 
-/// Most that a drawn line may move when points are left out, m. A car fills a wide screen at 2 mm a pixel.
-pub(super) const TOLERANCE: f64 = 0.002;
+/// Most that a drawn line may move when points are left out, m: half a pixel where a car fills the view.
+pub(super) const TOLERANCE: f64 = 0.004;
 
 /// Offsets beyond this are drawn as this, m: no road is as wide.
 const FAR: f64 = 99.0;
