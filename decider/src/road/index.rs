@@ -14,7 +14,8 @@ const CELL: f64 = 8.0;
 /// How far off the road a point may be before the distance is only a lower bound, m.
 const SEARCH_LIMIT: f64 = 4.0 * CELL;
 
-/// Half the side of the first square searched, m: a point on the road ends there, in one to four cells.
+/// Half the side of the first square searched off the road, m: a corner that sticks out a little ends there, in
+/// one to four cells.
 const FIRST_RADIUS: f64 = 0.5;
 
 /// How much wider each next square is: from 0.5 m to the limit in four steps.
@@ -30,6 +31,33 @@ struct Stretch {
     point: u32,
     /// Right of the first section, right of the second, left of the second, left of the first.
     corners: [Vec2; 4],
+    /// Lower left and upper right corner of the box around them.
+    low: Vec2,
+    high: Vec2,
+}
+
+impl Stretch {
+    fn new(lane: u32, point: u32, corners: [Vec2; 4]) -> Self {
+        let [first, rest @ ..] = &corners;
+        Self {
+            lane,
+            point,
+            low: rest.iter().fold(*first, |low, c| low.inf(c)),
+            high: rest.iter().fold(*first, |high, c| high.sup(c)),
+            corners,
+        }
+    }
+
+    /// Squared distance from `point` to the box: a lower bound of the distance to the stretch, almost for free.
+    fn box_distance_squared(&self, point: Vec2) -> f64 {
+        let x = (self.low.x - point.x).max(point.x - self.high.x).max(0.0);
+        let y = (self.low.y - point.y).max(point.y - self.high.y).max(0.0);
+        x * x + y * y
+    }
+
+    fn contains(&self, point: Vec2) -> bool {
+        self.box_distance_squared(point) <= 0.0 && distance_to_hull(&self.corners, point) <= 0.0
+    }
 }
 
 /// Grid cells and the stretches whose bounding boxes touch them.
@@ -47,18 +75,12 @@ impl LaneIndex {
                 continue;
             }
             for (point, pair) in (0u32..).zip(content.points.windows(2)) {
-                let corners = corners(&pair[0], &pair[1]);
-                stretches.push(Stretch { lane, point, corners });
+                stretches.push(Stretch::new(lane, point, corners(&pair[0], &pair[1])));
             }
         }
         let mut cells: BTreeMap<(i32, i32), Vec<u32>> = BTreeMap::new();
         for (place, stretch) in (0u32..).zip(&stretches) {
-            let first = stretch.corners[0];
-            let (low, high) = stretch
-                .corners
-                .iter()
-                .fold((first, first), |(low, high), c| (low.inf(c), high.sup(c)));
-            for cell in cells_between(low, high) {
+            for cell in cells_between(stretch.low, stretch.high) {
                 cells.entry(cell).or_default().push(place);
             }
         }
@@ -67,6 +89,9 @@ impl LaneIndex {
 
     /// Distance from `point` to the union of all road surfaces, at most [`SEARCH_LIMIT`].
     pub(super) fn distance_off_road(&self, point: Vec2) -> f64 {
+        if self.near(point, 0.0).any(|stretch| stretch.contains(point)) {
+            return 0.0;
+        }
         let mut best = SEARCH_LIMIT;
         let mut radius = 0.0;
         // Widen square by square: whatever lies nearer than `radius` has been seen.
@@ -77,11 +102,9 @@ impl LaneIndex {
                 radius * WIDENING
             };
             for stretch in self.near(point, radius) {
-                let distance = distance_to_hull(&stretch.corners, point);
-                if distance <= 0.0 {
-                    return 0.0;
+                if stretch.box_distance_squared(point) < best * best {
+                    best = best.min(distance_to_hull(&stretch.corners, point));
                 }
-                best = best.min(distance);
             }
         }
         best
@@ -94,7 +117,7 @@ impl LaneIndex {
             let lane = &lanes[stretch.lane as usize];
             let id = LaneId(stretch.lane);
             let new = found.iter().all(|(other, _)| *other != id);
-            if new && lane.kind.is_drivable() && distance_to_hull(&stretch.corners, point) <= 0.0 {
+            if new && lane.kind.is_drivable() && stretch.contains(point) {
                 found.push((id, lane.points[stretch.point as usize].theta));
             }
         }

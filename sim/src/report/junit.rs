@@ -1,4 +1,4 @@
-//! The report as JUnit XML: a suite per scenario, a case per seed.
+//! The report as `JUnit` XML: a suite per scenario, a case per seed.
 //!
 //! A `failure` is a violated property, an `error` is a testbed that could not run. `time` is wall time; the command
 //! that runs the case again is in `system-out`.
@@ -8,7 +8,7 @@ use crate::verdict::{Metric, Verdict};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::fmt::Write;
 
-/// The report as JUnit XML.
+/// The report as `JUnit` XML.
 ///
 /// # Errors
 /// [`ReportError::Junit`] when the writer fails.

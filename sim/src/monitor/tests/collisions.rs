@@ -7,7 +7,7 @@ use corridor_decider::frame::EgoState;
 use corridor_decider::geometry::Pose;
 use corridor_scenarios::scenario::Expectation;
 use proptest::prelude::*;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 const NOWHERE: [Pose; 1] = [Pose::new(0.0, 0.0, 0.0)];
 
@@ -47,9 +47,9 @@ fn class(ego: EgoState, car: Motion) -> (CollisionClass, bool) {
 
 #[test]
 fn a_standing_ego_that_is_hit_is_not_to_blame() {
-    let standing = class(ego(50.0, 0.0, 0.0, 0.05), motion(65.0, 0.0, 3.14, 8.0));
+    let standing = class(ego(50.0, 0.0, 0.0, 0.05), motion(65.0, 0.0, PI, 8.0));
     assert_eq!(standing, (CollisionClass::StoppedEgo, false));
-    let creeping = class(ego(50.0, 0.0, 0.0, 0.051), motion(65.0, 0.0, 3.14, 8.0));
+    let creeping = class(ego(50.0, 0.0, 0.0, 0.051), motion(65.0, 0.0, PI, 8.0));
     assert_eq!(creeping, (CollisionClass::ActiveFront, true));
 }
 

@@ -148,9 +148,9 @@ fn labels_and_sides_may_not_flip_much() {
         let mut b = bound(OWN, -1.0, 1.0);
         let cause = EdgeCause::Obstacle(ObstacleId(0));
         if left {
-            b.points[9].left = cause
+            b.points[9].left = cause;
         } else {
-            b.points[9].right = cause
+            b.points[9].right = cause;
         }
         run.tick(&decision(b, 20.0));
         run.metric("side_flips")
