@@ -11,6 +11,9 @@ const LOOK_AHEAD: f64 = 100.0;
 /// Room that a driver wants on each side of his own width, m. Whoever leaves it free is passed.
 const SIDE_ROOM: f64 = 0.3;
 
+/// How much longer than the line the way outside of it is in the tightest bend that counts.
+const OUTSIDE_OF_BENDS: f64 = 1.5;
+
 /// Samples that a first search along the line skips at a time: about four metres.
 const STRIDE: usize = 8;
 
@@ -70,7 +73,11 @@ pub(super) fn leader_of<'a>(
     let nose = follower.s + own.front;
     let mut nearest: Option<Leader> = None;
     for other in others {
-        let reach = LOOK_AHEAD + other.reach;
+        // Whoever cannot be nearer than the best so far is not looked at.
+        let horizon = nearest.map_or(LOOK_AHEAD, |best| {
+            LOOK_AHEAD.min(OUTSIDE_OF_BENDS * (best.gap.max(0.0) + own.front))
+        });
+        let reach = horizon + other.reach;
         if (other.pose.position() - own.pose.position()).norm_squared() > reach * reach {
             continue;
         }

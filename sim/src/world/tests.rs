@@ -137,8 +137,8 @@ fn the_braking_distance_is_that_of_theory_plus_the_brakes_delay() {
 #[test]
 fn a_push_at_motorway_speed_dies_out() {
     let mut world = free_world(origin(), 35.0);
-    world.physics.bodies[world.ego_body].set_angvel(0.15, true);
-    world.physics.bodies[world.ego_body].set_linvel(Vector::new(35.0, 0.8), true);
+    world.motion.yaw = 0.15;
+    world.motion.velocity = Vector::new(35.0, 0.8);
     let mut late: f64 = 0.0;
     for k in 0..steps(6.0) {
         world.step(Controls::default(), &[]);
@@ -165,10 +165,10 @@ fn tyres_never_give_more_than_their_grip() {
     ] {
         let mut world = free_world(origin(), speed);
         let mut largest: f64 = 0.0;
-        let mut last = world.physics.bodies[world.ego_body].linvel();
+        let mut last = world.motion.velocity;
         for _ in 0..steps(5.0) {
             world.step(Controls { steer, acceleration }, &[]);
-            let now = world.physics.bodies[world.ego_body].linvel();
+            let now = world.motion.velocity;
             largest = largest.max((now - last).length() / DT);
             last = now;
         }
@@ -418,4 +418,21 @@ fn a_car_that_drives_into_the_standing_ego_moves_it() {
         "contact at {seen}, expected at {expected}"
     );
     assert!(world.ego().pose.x > 61.0, "it is pushed along");
+}
+
+#[test]
+fn touching_nothing_it_moves_exactly_as_the_engine_would_move_it() {
+    let mut free = free_world(Pose::new(300.0, -80.0, 1.1), 12.0);
+    let mut engine = free_world(Pose::new(300.0, -80.0, 1.1), 12.0);
+    for k in 0..3000 {
+        free.step(wild(k), &[]);
+        engine
+            .actuators
+            .advance(wild(k), &engine.vehicle, &engine.dynamics, DT);
+        engine.push_ego();
+        engine.step_engine();
+        engine.read_ego();
+        assert_eq!(free.motion, engine.motion, "step {k}");
+        assert_eq!(free.state_hash(), engine.state_hash(), "step {k}");
+    }
 }
