@@ -51,7 +51,7 @@ impl Body {
             vertices: shape.vertices().to_vec(),
             front: largest(|v| v.x),
             half_width: largest(|v| v.y.abs()),
-            reach: largest(|v| v.norm()),
+            reach: largest(Vec2::norm),
         }
     }
 
@@ -86,7 +86,7 @@ pub(super) fn leader_of<'a>(
         };
         let inside = seen.left > strip.0 - room && seen.right < strip.1 + room;
         let gap = seen.tail - nose;
-        if inside && seen.middle > follower.s && nearest.is_none_or(|best| gap < best.gap) {
+        if inside && nearest.is_none_or(|best| gap < best.gap) {
             let speed = seen.speed;
             nearest = Some(Leader { gap, speed });
         }
@@ -96,8 +96,7 @@ pub(super) fn leader_of<'a>(
 
 /// A body in the Frenet frame of a line.
 struct Seen {
-    /// Station of its centre, and its smallest one, m.
-    middle: f64,
+    /// Its smallest station, m.
     tail: f64,
     /// Its smallest and its largest offset, m.
     right: f64,
@@ -106,7 +105,7 @@ struct Seen {
     speed: f64,
 }
 
-/// Projects `body` on the part of `line` within sight of `from`; `None` when it is beside no part of it.
+/// Projects `body` on the part of `line` within sight of `from`; `None` when it is behind or beside no part of it.
 fn seen_from_line(line: &ReferenceLine, from: f64, body: &Body) -> Option<Seen> {
     let samples = line.samples();
     let first = samples.partition_point(|p| p.s < from).saturating_sub(1);
@@ -121,8 +120,10 @@ fn seen_from_line(line: &ReferenceLine, from: f64, body: &Body) -> Option<Seen> 
         let stretch = (1.0 - near.point.kappa * y).max(0.1);
         (near.s + x / stretch, y - near.point.kappa * x * x / 2.0)
     };
+    if frenet(body.pose.position()).0 <= from {
+        return None;
+    }
     let mut seen = Seen {
-        middle: frenet(body.pose.position()).0,
         tail: f64::INFINITY,
         right: f64::INFINITY,
         left: f64::NEG_INFINITY,

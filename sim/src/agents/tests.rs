@@ -1,4 +1,5 @@
 //! Road users against worked numbers: circles, following distances, stops, cut-ins, crossings.
+#![expect(clippy::float_cmp, reason = "waiting and arriving are exact")]
 
 use super::leader::Leader;
 use super::*;

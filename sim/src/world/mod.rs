@@ -30,7 +30,7 @@ use corridor_decider::vehicle::VehicleParams;
 use corridor_scenarios::Scenario;
 use motion::Motion;
 use rapier2d::dynamics::RigidBodyHandle;
-use rapier2d::geometry::ColliderHandle;
+use rapier2d::geometry::{Collider, ColliderHandle};
 use rapier2d::math::Vector;
 use rapier2d::pipeline::PhysicsWorld;
 
@@ -45,10 +45,13 @@ struct EngineBody {
 /// need not be beautiful.
 const SOLVER_ITERATIONS: usize = 1;
 
-/// An obstacle takes part in the engine's work from this distance on, and until that one, m. Two cars that meet at
-/// 40 m/s each close 0.8 m in a step; nothing can be touched unseen.
+/// The engine is asked while something may come nearer than this in the coming step, m; its contacts begin two
+/// centimetres apart.
+const CONTACT_MARGIN: f64 = 0.1;
+/// Once asked, it goes on until nothing is within this many times that distance.
+const RELEASE_FACTOR: f64 = 2.0;
+/// Obstacles whose circle is farther than this from the ego's take no part even then, m.
 const ENGAGE: f64 = 2.0;
-const RELEASE: f64 = 3.0;
 
 /// The ego and the obstacles, advanced in fixed steps.
 pub struct World {
@@ -235,10 +238,10 @@ impl World {
 
     /// Lets the obstacles near the ego take part in the engine's work, and no others. Says whether any does.
     fn engage_near_obstacles(&mut self) -> bool {
+        let contact_possible = self.contact_possible();
         let mut any = false;
         for (body, outline) in self.obstacle_bodies.iter_mut().zip(&self.outlines) {
-            let limit = if body.engaged { RELEASE } else { ENGAGE };
-            let near = !self.ego_outline.is_beyond(outline, limit);
+            let near = contact_possible && !self.ego_outline.is_beyond(outline, ENGAGE);
             if near != body.engaged {
                 let in_engine = &mut self.physics.bodies[body.handle];
                 in_engine.set_position(outline.placed(), true);
@@ -248,6 +251,20 @@ impl World {
             any |= near;
         }
         any
+    }
+
+    /// Whether the ego and the nearest obstacle may touch in the coming step.
+    fn contact_possible(&self) -> bool {
+        let fastest = |v: f64, o: &ObstacleBody| v.max(o.velocity.norm_squared());
+        let obstacle_speed = self.obstacles.iter().fold(0.0, fastest).sqrt();
+        let ego_speed = self.motion.velocity.length() + self.motion.yaw.abs() * self.vehicle.length;
+        let range = CONTACT_MARGIN + (ego_speed + obstacle_speed) * self.dt;
+        let limit = if self.engine_in_step {
+            RELEASE_FACTOR * range
+        } else {
+            range
+        };
+        self.clearance().is_some_and(|(distance, _)| distance <= limit)
     }
 
     fn center_of_mass(&self) -> Vector {
@@ -306,7 +323,7 @@ impl World {
             } else {
                 pair.collider1
             };
-            let parent = self.physics.colliders.get(other).and_then(|c| c.parent());
+            let parent = self.physics.colliders.get(other).and_then(Collider::parent);
             let place = self.obstacle_bodies.iter().position(|b| Some(b.handle) == parent);
             if let Some(obstacle) = place.map(|place| self.obstacles[place].id)
                 && !self.touched.contains(&obstacle)

@@ -1,4 +1,5 @@
 //! The car against theory: turning circles, understeer, braking, grip, standstill, symmetry, repeatability.
+#![expect(clippy::float_cmp, reason = "standing still and repeating are exact")]
 
 use super::*;
 use crate::testing::{along, scenario};
@@ -26,8 +27,13 @@ fn steady_turn(speed: f64, steer: f64, seconds: f64) -> World {
     world
 }
 
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a small positive count"
+)]
 fn steps(seconds: f64) -> u32 {
-    (0..).find(|k| f64::from(*k) * DT >= seconds - 1e-9).unwrap()
+    (seconds / DT).round() as u32
 }
 
 #[test]
@@ -370,11 +376,11 @@ fn running_into_a_parked_car_overlaps_once_and_throws_the_ego_back() {
 #[test]
 fn an_obstacle_that_drives_away_leaves_no_ghost_in_the_engine() {
     let line = crate::testing::line(&crate::testing::road(origin(), 0.0, 600.0));
-    let others = vec![Behaviour::ConstantSpeed(along(&line, 8.0, 0.0, 20.0))];
+    let others = vec![Behaviour::ConstantSpeed(along(&line, 6.4, 0.0, 20.0))];
     let scenario = scenario(origin(), 10.0, others);
     let mut world = World::new(&scenario, &PhysicsConfig::default());
     let mut agents = agents::Agents::new(&scenario);
-    assert!(world.obstacle_bodies[0].engaged, "it starts near");
+    let mut engaged = 0;
     for _ in 0..1000 {
         let moved = agents.advance(&world.ego(), DT);
         world.step(Controls::default(), moved);
@@ -383,7 +389,7 @@ fn an_obstacle_that_drives_away_leaves_no_ghost_in_the_engine() {
         world.contacts_seen().is_empty(),
         "it drove away: nobody can touch it"
     );
-    assert!((world.obstacles()[0].pose.x - 208.0).abs() < 1e-6);
+    assert!((world.obstacles()[0].pose.x - 206.4).abs() < 1e-6);
     assert!(
         (world.ego().pose.x - 100.0).abs() < 1e-6,
         "nothing stopped the ego"
