@@ -78,7 +78,7 @@ mod tests {
     use super::*;
     use crate::testing::{along, line, road, scenario};
     use crate::world::PhysicsConfig;
-    use corridor_scenarios::scenario::Behaviour;
+    use corridor_scenarios::scenario::{Behaviour, Trigger};
 
     fn scene() -> (World, Agents) {
         let line = line(&road(Pose::new(0.0, 0.0, 0.0), 0.0, 600.0));
@@ -86,6 +86,12 @@ mod tests {
             Behaviour::Parked(Pose::new(40.0, -3.0, PI)),
             Behaviour::ConstantSpeed(along(&line, 30.0, 3.5, 1.0 / 3.0)),
             Behaviour::Parked(Pose::new(250.0, 0.0, 0.0)),
+            Behaviour::Pedestrian {
+                from: Vec2::new(90.0, 0.0),
+                to: Vec2::new(90.0, 9.0),
+                speed: 1.5,
+                trigger: Trigger::Time(0.5),
+            },
         ];
         let scenario = scenario(Pose::new(0.0, 0.0, 0.0), 10.0, behaviours);
         let mut world = World::new(&scenario, &PhysicsConfig::default());
@@ -111,7 +117,8 @@ mod tests {
             .iter()
             .map(|o| (o.id.0, o.is_static, o.prediction.len()))
             .collect();
-        assert_eq!(ids, [(0, true, 0), (1, false, 17)]);
+        assert_eq!(ids, [(0, true, 0), (1, false, 17), (3, false, 17)]);
+        assert_eq!(seen[2].velocity, Vec2::new(0.0, 1.5), "it has begun to walk");
     }
 
     #[test]

@@ -159,3 +159,43 @@ fn nearest_sample(samples: &[LineSample], point: Vec2) -> Option<&LineSample> {
     )?;
     samples.get(fine)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{line, road};
+    use corridor_decider::frame::ObstacleId;
+    use corridor_decider::reference_line::{LineQuery, SlPoint};
+
+    /// The oracle projects every corner by the line's own global search.
+    #[test]
+    fn a_body_in_a_bend_is_seen_where_the_line_sees_its_corners() {
+        let line = line(&road(Pose::new(5.0, -3.0, 0.4), 0.04, 140.0));
+        let shape = ConvexPolygon::rectangle(Pose::new(0.0, 0.0, 0.0), 2.3, 2.3, 0.95);
+        for (s, l, turn) in [(20.0, 0.0, 0.0), (70.3, 3.0, 0.3), (88.8, -4.0, 3.0)] {
+            let place = line.to_cartesian(SlPoint { s, l });
+            let pose = Pose::new(place.x, place.y, line.point(s).theta + turn);
+            let at = BodyPose {
+                id: ObstacleId(0),
+                pose,
+                velocity: pose.forward() * 5.0,
+            };
+            let seen = seen_from_line(&line, 3.0, &Body::new(&shape, at, true)).unwrap();
+            let corners: Vec<SlPoint> = shape
+                .at(pose)
+                .vertices()
+                .iter()
+                .map(|v| line.to_frenet(*v))
+                .collect();
+            let least = |of: fn(&SlPoint) -> f64| corners.iter().map(of).fold(f64::INFINITY, f64::min);
+            assert!((seen.tail - least(|c| c.s)).abs() < 0.02, "tail {}", seen.tail);
+            assert!((seen.right - least(|c| c.l)).abs() < 0.02, "right {}", seen.right);
+            assert!((seen.left + least(|c| -c.l)).abs() < 0.02, "left {}", seen.left);
+            assert!((seen.speed - 5.0 * libm::cos(turn)).abs() < 0.1);
+            assert!(
+                seen_from_line(&line, s + 1.0, &Body::new(&shape, at, true)).is_none(),
+                "behind"
+            );
+        }
+    }
+}
