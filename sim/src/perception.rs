@@ -72,3 +72,70 @@ fn round_pose(pose: Pose) -> Pose {
         round(pose.theta).clamp(-widest, widest),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{along, line, road, scenario};
+    use crate::world::PhysicsConfig;
+    use corridor_scenarios::scenario::{Behaviour, Trigger};
+
+    fn scene() -> (World, Agents) {
+        let line = line(&road(Pose::new(0.0, 0.0, 0.0), 0.0, 600.0));
+        let behaviours = vec![
+            Behaviour::Parked(Pose::new(40.0, -3.0, PI)),
+            Behaviour::ConstantSpeed(along(&line, 30.0, 3.5, 1.0 / 3.0)),
+            Behaviour::Parked(Pose::new(250.0, 0.0, 0.0)),
+            Behaviour::Pedestrian {
+                from: Vec2::new(90.0, 0.0),
+                to: Vec2::new(90.0, 9.0),
+                speed: 1.5,
+                trigger: Trigger::Time(0.5),
+            },
+        ];
+        let scenario = scenario(Pose::new(0.0, 0.0, 0.0), 10.0, behaviours);
+        let mut world = World::new(&scenario, &PhysicsConfig::default());
+        let mut agents = Agents::new(&scenario);
+        for _ in 0..77 {
+            let moved = agents.advance(&world.ego(), world.dt());
+            world.step(
+                crate::trace::Controls {
+                    steer: 0.1,
+                    acceleration: 0.3,
+                },
+                moved,
+            );
+        }
+        (world, agents)
+    }
+
+    #[test]
+    fn what_is_far_is_not_seen_and_only_the_parked_is_static() {
+        let (world, agents) = scene();
+        let seen = observe(&world, &agents, SENSOR_RANGE);
+        let ids: Vec<(u32, bool, usize)> = seen
+            .iter()
+            .map(|o| (o.id.0, o.is_static, o.prediction.len()))
+            .collect();
+        assert_eq!(ids, [(0, true, 0), (1, false, 17), (3, false, 17)]);
+        assert_eq!(seen[2].velocity, Vec2::new(0.0, 1.5), "it has begun to walk");
+    }
+
+    #[test]
+    fn numbers_are_short_near_and_survive_a_file() {
+        let (world, agents) = scene();
+        let seen = observe(&world, &agents, SENSOR_RANGE);
+        let (body, car) = (&world.obstacles()[1], &seen[1]);
+        let off = (car.pose.x - body.pose.x).abs();
+        assert!(off > 0.0 && off <= 0.5 / RESOLUTION);
+        assert_eq!(car.velocity, Vec2::new(0.3333, 0.0));
+        let angle = seen[0].pose.theta;
+        assert!(angle <= PI && PI - angle < 1.0 / RESOLUTION, "{angle}");
+        let text = serde_json::to_string(&(&seen, localise(&world))).unwrap();
+        let decimals = |number: &str| number.split('.').nth(1).map_or(0, str::len);
+        let numbers = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
+        assert!(numbers.map(decimals).all(|count| count <= 4), "{text}");
+        let back: (Vec<Obstacle>, EgoState) = serde_json::from_str(&text).unwrap();
+        assert_eq!(back, (seen, localise(&world)));
+    }
+}

@@ -54,7 +54,7 @@ impl IdmDriver {
         let (v, a) = (self.follower.speed, self.acceleration);
         let next = v + a * dt;
         let distance = if next >= 0.0 {
-            (v + next) / 2.0 * dt
+            f64::midpoint(v, next) * dt
         } else {
             v * v / (-2.0 * a)
         };

@@ -11,6 +11,9 @@ const LOOK_AHEAD: f64 = 100.0;
 /// Room that a driver wants on each side of his own width, m. Whoever leaves it free is passed.
 const SIDE_ROOM: f64 = 0.3;
 
+/// How much longer than the line the way outside of it is in the tightest bend that counts.
+const OUTSIDE_OF_BENDS: f64 = 1.5;
+
 /// Samples that a first search along the line skips at a time: about four metres.
 const STRIDE: usize = 8;
 
@@ -48,7 +51,7 @@ impl Body {
             vertices: shape.vertices().to_vec(),
             front: largest(|v| v.x),
             half_width: largest(|v| v.y.abs()),
-            reach: largest(|v| v.norm()),
+            reach: largest(Vec2::norm),
         }
     }
 
@@ -70,7 +73,11 @@ pub(super) fn leader_of<'a>(
     let nose = follower.s + own.front;
     let mut nearest: Option<Leader> = None;
     for other in others {
-        let reach = LOOK_AHEAD + other.reach;
+        // Whoever cannot be nearer than the best so far is not looked at.
+        let horizon = nearest.map_or(LOOK_AHEAD, |best| {
+            LOOK_AHEAD.min(OUTSIDE_OF_BENDS * (best.gap.max(0.0) + own.front))
+        });
+        let reach = horizon + other.reach;
         if (other.pose.position() - own.pose.position()).norm_squared() > reach * reach {
             continue;
         }
@@ -79,7 +86,7 @@ pub(super) fn leader_of<'a>(
         };
         let inside = seen.left > strip.0 - room && seen.right < strip.1 + room;
         let gap = seen.tail - nose;
-        if inside && seen.middle > follower.s && nearest.is_none_or(|best| gap < best.gap) {
+        if inside && nearest.is_none_or(|best| gap < best.gap) {
             let speed = seen.speed;
             nearest = Some(Leader { gap, speed });
         }
@@ -89,8 +96,7 @@ pub(super) fn leader_of<'a>(
 
 /// A body in the Frenet frame of a line.
 struct Seen {
-    /// Station of its centre, and its smallest one, m.
-    middle: f64,
+    /// Its smallest station, m.
     tail: f64,
     /// Its smallest and its largest offset, m.
     right: f64,
@@ -99,7 +105,7 @@ struct Seen {
     speed: f64,
 }
 
-/// Projects `body` on the part of `line` within sight of `from`; `None` when it is beside no part of it.
+/// Projects `body` on the part of `line` within sight of `from`; `None` when it is behind or beside no part of it.
 fn seen_from_line(line: &ReferenceLine, from: f64, body: &Body) -> Option<Seen> {
     let samples = line.samples();
     let first = samples.partition_point(|p| p.s < from).saturating_sub(1);
@@ -114,8 +120,10 @@ fn seen_from_line(line: &ReferenceLine, from: f64, body: &Body) -> Option<Seen> 
         let stretch = (1.0 - near.point.kappa * y).max(0.1);
         (near.s + x / stretch, y - near.point.kappa * x * x / 2.0)
     };
+    if frenet(body.pose.position()).0 <= from {
+        return None;
+    }
     let mut seen = Seen {
-        middle: frenet(body.pose.position()).0,
         tail: f64::INFINITY,
         right: f64::INFINITY,
         left: f64::NEG_INFINITY,
@@ -150,4 +158,44 @@ fn nearest_sample(samples: &[LineSample], point: Vec2) -> Option<&LineSample> {
         1,
     )?;
     samples.get(fine)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{line, road};
+    use corridor_decider::frame::ObstacleId;
+    use corridor_decider::reference_line::{LineQuery, SlPoint};
+
+    /// The oracle projects every corner by the line's own global search.
+    #[test]
+    fn a_body_in_a_bend_is_seen_where_the_line_sees_its_corners() {
+        let line = line(&road(Pose::new(5.0, -3.0, 0.4), 0.04, 140.0));
+        let shape = ConvexPolygon::rectangle(Pose::new(0.0, 0.0, 0.0), 2.3, 2.3, 0.95);
+        for (s, l, turn) in [(20.0, 0.0, 0.0), (70.3, 3.0, 0.3), (88.8, -4.0, 3.0)] {
+            let place = line.to_cartesian(SlPoint { s, l });
+            let pose = Pose::new(place.x, place.y, line.point(s).theta + turn);
+            let at = BodyPose {
+                id: ObstacleId(0),
+                pose,
+                velocity: pose.forward() * 5.0,
+            };
+            let seen = seen_from_line(&line, 3.0, &Body::new(&shape, at, true)).unwrap();
+            let corners: Vec<SlPoint> = shape
+                .at(pose)
+                .vertices()
+                .iter()
+                .map(|v| line.to_frenet(*v))
+                .collect();
+            let least = |of: fn(&SlPoint) -> f64| corners.iter().map(of).fold(f64::INFINITY, f64::min);
+            assert!((seen.tail - least(|c| c.s)).abs() < 0.02, "tail {}", seen.tail);
+            assert!((seen.right - least(|c| c.l)).abs() < 0.02, "right {}", seen.right);
+            assert!((seen.left + least(|c| -c.l)).abs() < 0.02, "left {}", seen.left);
+            assert!((seen.speed - 5.0 * libm::cos(turn)).abs() < 0.1);
+            assert!(
+                seen_from_line(&line, s + 1.0, &Body::new(&shape, at, true)).is_none(),
+                "behind"
+            );
+        }
+    }
 }

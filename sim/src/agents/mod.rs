@@ -160,10 +160,9 @@ impl Agents {
     /// One step of everyone, seeing the ego where it was before the step. Returns the new poses of those that
     /// can move, in ascending order.
     pub fn advance(&mut self, ego: &EgoState, dt: f64) -> &[BodyPose] {
-        self.bodies
-            .last_mut()
-            .expect("the ego is always there")
-            .place(ego.pose, ego.pose.forward() * ego.v);
+        if let Some(body) = self.bodies.last_mut() {
+            body.place(ego.pose, ego.pose.forward() * ego.v);
+        }
         if self.is_time_to_look(dt) {
             self.look_ahead();
         }

@@ -4,6 +4,10 @@ use crate::world::DynamicsParams;
 use corridor_decider::vehicle::VehicleParams;
 use serde::{Deserialize, Serialize};
 
+/// How long the car's yaw takes to follow its wheels, s. Measured in the loop: with it neither lane changes at
+/// 15 m/s nor bends at 5 m/s are cut or left wide by more than 6 cm.
+const YAW_LAG: f64 = 0.11;
+
 /// Settings of the tracker.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -36,10 +40,10 @@ impl TrackerConfig {
     /// The usual gains for a car whose tyres are known.
     pub fn for_car(vehicle: &VehicleParams, dynamics: &DynamicsParams) -> Self {
         Self {
-            feedback_time: 0.6,
+            feedback_time: 0.5,
             feedback_distance: 3.0,
             max_approach: 0.35,
-            steer_preview: dynamics.steer_lag + 0.08,
+            steer_preview: dynamics.steer_lag + YAW_LAG,
             acceleration_preview: dynamics.brake_lag,
             speed_gain: 1.2,
             station_gain: 0.4,

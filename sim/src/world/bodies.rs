@@ -89,12 +89,10 @@ pub(super) fn bounding_circle(polygon: &ConvexPolygon) -> (Vec2, f64) {
 }
 
 /// The ego's body; its origin is the rear axle.
-pub(super) fn ego_body(start: Pose, speed: f64, params: &DynamicsParams) -> RigidBody {
+pub(super) fn ego_body(start: Pose, params: &DynamicsParams) -> RigidBody {
     let center_of_mass = Vector::new(params.center_of_mass, 0.0);
-    let velocity = start.forward() * speed;
     RigidBodyBuilder::dynamic()
         .pose(to_rapier(start))
-        .linvel(Vector::new(velocity.x, velocity.y))
         .additional_mass_properties(MassProperties::new(
             center_of_mass,
             params.mass,

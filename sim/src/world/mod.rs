@@ -8,6 +8,7 @@ mod axles;
 mod bodies;
 mod clearance;
 mod hash;
+mod motion;
 mod params;
 #[cfg(test)]
 mod tests;
@@ -20,16 +21,17 @@ pub use params::{DynamicsParams, GRAVITY, PhysicsConfig};
 use crate::agents;
 use crate::trace::Controls;
 use actuators::Actuators;
-use axles::{Axles, BodyVelocity};
+use axles::Axles;
 use bodies::{ego_body, ego_collider, from_rapier, obstacle_body, obstacle_collider, to_rapier};
 use clearance::{Outline, Proximity};
 use corridor_decider::frame::{EgoState, ObstacleId};
 use corridor_decider::geometry::{ConvexPolygon, Pose};
 use corridor_decider::vehicle::VehicleParams;
 use corridor_scenarios::Scenario;
+use motion::Motion;
 use rapier2d::dynamics::RigidBodyHandle;
-use rapier2d::geometry::ColliderHandle;
-use rapier2d::math::{Pose as RapierPose, Rot2, Vector};
+use rapier2d::geometry::{Collider, ColliderHandle};
+use rapier2d::math::Vector;
 use rapier2d::pipeline::PhysicsWorld;
 
 /// An obstacle in the engine.
@@ -43,16 +45,21 @@ struct EngineBody {
 /// need not be beautiful.
 const SOLVER_ITERATIONS: usize = 1;
 
-/// An obstacle takes part in the engine's work from this distance on, and until that one, m. Two cars that meet at
-/// 40 m/s each close 0.8 m in a step; nothing can be touched unseen. Bodies farther off would cost three times
-/// what the ego's own motion does and change nothing.
-const ENGAGE: f64 = 5.0;
-const RELEASE: f64 = 8.0;
+/// The engine is asked while something may come nearer than this in the coming step, m; its contacts begin two
+/// centimetres apart.
+const CONTACT_MARGIN: f64 = 0.1;
+/// Once asked, it goes on until nothing is within this many times that distance.
+const RELEASE_FACTOR: f64 = 2.0;
+/// Obstacles whose circle is farther than this from the ego's take no part even then, m.
+const ENGAGE: f64 = 2.0;
 
 /// The ego and the obstacles, advanced in fixed steps.
 pub struct World {
     physics: PhysicsWorld,
     ego_body: RigidBodyHandle,
+    /// Whether the engine's ego is where the ego is.
+    engine_in_step: bool,
+    motion: Motion,
     ego_collider: ColliderHandle,
     obstacle_bodies: Vec<EngineBody>,
     obstacles: Vec<ObstacleBody>,
@@ -77,14 +84,22 @@ impl World {
         };
         physics.integration_parameters.dt = config.dt;
         physics.integration_parameters.num_solver_iterations = SOLVER_ITERATIONS;
+        // No sweeping: a step is shorter than any body, and a clamped ego would hide an overlap.
+        physics.integration_parameters.max_ccd_substeps = 0;
         let (vehicle, start) = (scenario.vehicle, scenario.ego);
-        let (ego_body, ego_collider) = physics.insert(
-            ego_body(start.pose, start.speed, &config.dynamics),
-            ego_collider(&vehicle),
-        );
+        let (ego_body, ego_collider) =
+            physics.insert(ego_body(start.pose, &config.dynamics), ego_collider(&vehicle));
+        let velocity = start.pose.forward() * start.speed;
+        let motion = Motion {
+            pose: to_rapier(start.pose),
+            velocity: Vector::new(velocity.x, velocity.y),
+            yaw: 0.0,
+        };
         let mut world = Self {
             physics,
             ego_body,
+            engine_in_step: false,
+            motion,
             ego_collider,
             obstacle_bodies: Vec::new(),
             obstacles: Vec::new(),
@@ -135,11 +150,14 @@ impl World {
         self.actuators
             .advance(controls, &self.vehicle, &self.dynamics, self.dt);
         self.move_obstacles(moved);
-        self.engage_near_obstacles();
         self.push_ego();
-        self.physics.step();
+        if self.engage_near_obstacles() {
+            self.step_engine();
+        } else {
+            self.motion.coast(self.center_of_mass(), self.dt);
+            self.engine_in_step = false;
+        }
         self.read_ego();
-        self.read_contacts();
         self.proximity.update(&self.ego_outline, &self.outlines);
     }
 
@@ -182,10 +200,14 @@ impl World {
     /// Hash over the exact bits of everything that moves: ego, actuators, obstacles in their order.
     pub fn state_hash(&self) -> u64 {
         let mut hash = Fnv::new();
-        let body = &self.physics.bodies[self.ego_body];
-        let (place, turn) = (body.translation(), body.rotation());
-        hash.numbers([place.x, place.y, turn.re, turn.im]);
-        hash.numbers([body.linvel().x, body.linvel().y, body.angvel()]);
+        let Motion { pose, velocity, yaw } = self.motion;
+        hash.numbers([
+            pose.translation.x,
+            pose.translation.y,
+            pose.rotation.re,
+            pose.rotation.im,
+        ]);
+        hash.numbers([velocity.x, velocity.y, yaw]);
         hash.numbers([self.actuators.steer, self.actuators.acceleration, self.ego.a]);
         for obstacle in &self.obstacles {
             hash.numbers([obstacle.pose.x, obstacle.pose.y, obstacle.pose.theta]);
@@ -214,52 +236,81 @@ impl World {
         }
     }
 
-    /// Lets the obstacles near the ego take part in the engine's work, and no others.
-    fn engage_near_obstacles(&mut self) {
+    /// Lets the obstacles near the ego take part in the engine's work, and no others. Says whether any does.
+    fn engage_near_obstacles(&mut self) -> bool {
+        let contact_possible = self.contact_possible();
+        let mut any = false;
         for (body, outline) in self.obstacle_bodies.iter_mut().zip(&self.outlines) {
-            let limit = if body.engaged { RELEASE } else { ENGAGE };
-            let near = !self.ego_outline.is_beyond(outline, limit);
+            let near = contact_possible && !self.ego_outline.is_beyond(outline, ENGAGE);
             if near != body.engaged {
                 let in_engine = &mut self.physics.bodies[body.handle];
                 in_engine.set_position(outline.placed(), true);
                 in_engine.set_enabled(near);
                 body.engaged = near;
             }
+            any |= near;
         }
+        any
+    }
+
+    /// Whether the ego and the nearest obstacle may touch in the coming step.
+    fn contact_possible(&self) -> bool {
+        let fastest = |v: f64, o: &ObstacleBody| v.max(o.velocity.norm_squared());
+        let obstacle_speed = self.obstacles.iter().fold(0.0, fastest).sqrt();
+        let ego_speed = self.motion.velocity.length() + self.motion.yaw.abs() * self.vehicle.length;
+        let range = CONTACT_MARGIN + (ego_speed + obstacle_speed) * self.dt;
+        let limit = if self.engine_in_step {
+            RELEASE_FACTOR * range
+        } else {
+            range
+        };
+        self.clearance().is_some_and(|(distance, _)| distance <= limit)
+    }
+
+    fn center_of_mass(&self) -> Vector {
+        Vector::new(self.dynamics.center_of_mass, 0.0)
     }
 
     /// Replaces the ego's velocity by the one its tyres leave it with.
     fn push_ego(&mut self) {
+        let Actuators {
+            steer, acceleration, ..
+        } = self.actuators;
+        let axles = &self.axles;
+        self.motion
+            .push(self.dt, |before| axles.step(before, steer, acceleration));
+    }
+
+    /// Moves the ego by the engine, which lets it collide.
+    fn step_engine(&mut self) {
         let body = &mut self.physics.bodies[self.ego_body];
-        let (velocity, yaw) = (body.linvel(), body.angvel());
-        let frame = mid_step_frame(*body.rotation(), yaw * self.dt);
-        let local = frame.inverse_transform_vector(velocity);
-        let before = BodyVelocity {
-            forward: local.x,
-            left: local.y,
-            yaw,
+        if !self.engine_in_step {
+            body.set_position(self.motion.pose, true);
+            self.engine_in_step = true;
+        }
+        body.set_linvel(self.motion.velocity, true);
+        body.set_angvel(self.motion.yaw, true);
+        self.physics.step();
+        let body = &self.physics.bodies[self.ego_body];
+        self.motion = Motion {
+            pose: *body.position(),
+            velocity: body.linvel(),
+            yaw: body.angvel(),
         };
-        let after = self
-            .axles
-            .step(before, self.actuators.steer, self.actuators.acceleration);
-        let velocity = frame.transform_vector(Vector::new(after.forward, after.left));
-        body.set_linvel(velocity, true);
-        body.set_angvel(after.yaw, true);
+        self.read_contacts();
     }
 
     fn read_ego(&mut self) {
-        let body = &self.physics.bodies[self.ego_body];
-        let pose = from_rapier(body.position());
-        let v = body.rotation().inverse_transform_vector(body.linvel()).x;
+        let pose = from_rapier(&self.motion.pose);
+        let v = self.motion.speed();
         self.ego = EgoState {
             pose,
             v,
             a: (v - self.ego.v) / self.dt,
-            yaw_rate: body.angvel(),
+            yaw_rate: self.motion.yaw,
             steer: self.actuators.steer,
         };
-        let placed: RapierPose = *body.position();
-        self.ego_outline.move_to(pose, placed);
+        self.ego_outline.move_to(pose, self.motion.pose);
     }
 
     fn read_contacts(&mut self) {
@@ -272,7 +323,7 @@ impl World {
             } else {
                 pair.collider1
             };
-            let parent = self.physics.colliders.get(other).and_then(|c| c.parent());
+            let parent = self.physics.colliders.get(other).and_then(Collider::parent);
             let place = self.obstacle_bodies.iter().position(|b| Some(b.handle) == parent);
             if let Some(obstacle) = place.map(|place| self.obstacles[place].id)
                 && !self.touched.contains(&obstacle)
@@ -281,12 +332,4 @@ impl World {
             }
         }
     }
-}
-
-/// The body's axes halfway through a step in which it turns by `turn` rad. Tyres that act along these keep
-/// the error of a turning step at second order. Without a sine: `tan(turn/4)` is `turn/4` here.
-fn mid_step_frame(rotation: Rot2, turn: f64) -> Rot2 {
-    let h = turn / 4.0;
-    let scale = 1.0 / (1.0 + h * h);
-    rotation * Rot2::from_cos_sin_unchecked((1.0 - h * h) * scale, 2.0 * h * scale)
 }
