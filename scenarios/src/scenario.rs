@@ -188,3 +188,28 @@ pub enum Expectation {
     /// Stand at the road's edge or refuse: the gap is long enough for the car, but not for all clearances.
     PulledOverOrRefusal,
 }
+
+impl Expectation {
+    /// How far to get, if getting there is a right end, m.
+    pub fn goal(self) -> Option<f64> {
+        match self {
+            Self::Progress(distance) | Self::ProgressOrStandstill(distance) => Some(distance),
+            _ => None,
+        }
+    }
+
+    /// Whether standing behind a blocker is a right end.
+    pub fn allows_standstill(self) -> bool {
+        matches!(self, Self::Standstill | Self::ProgressOrStandstill(_))
+    }
+
+    /// Whether standing at the road's edge is a right end.
+    pub fn allows_pull_over(self) -> bool {
+        matches!(self, Self::PulledOver | Self::PulledOverOrRefusal)
+    }
+
+    /// Whether refusing the command is a right end.
+    pub fn allows_refusal(self) -> bool {
+        matches!(self, Self::Refusal | Self::PulledOverOrRefusal)
+    }
+}

@@ -9,7 +9,7 @@ use crate::decision::{Assessment, Rejection, TrajectoryPoint};
 use crate::frame::ObstacleId;
 use crate::geometry::Pose;
 use crate::reference_line::LineQuery;
-use crate::tasks::path::{self, LineTable, Path};
+use crate::tasks::path::{self, Goal, LineTable, Path};
 use crate::tasks::path_bounds::{Borrow, Label, PathBound, PathBounds};
 use crate::tasks::scene::{Scene, TimedBox};
 use crate::tasks::start_point::StartPoint;
@@ -50,7 +50,7 @@ pub(super) fn choose(scene: &Scene, table: &LineTable, bounds: &PathBounds, cont
     let mut blocked_own: Option<(usize, Path)> = None;
     for place in in_order(&bounds.bounds) {
         let bound = &bounds.bounds[place];
-        let path = match path::plan(scene, table, bound, target_l(scene, context, bound.label)) {
+        let path = match path::plan(scene, table, bound, goal(scene, context, bound.label)) {
             Ok(path) => path,
             Err(rejection) => {
                 choice.own_lane_is_blocked |= is_own_lane(bound.label);
@@ -99,19 +99,12 @@ fn verdict(
     blocked_own: Option<&(usize, Path)>,
 ) -> Verdict {
     match bound.label {
-        Label::PullOver => {
-            let place = context
-                .bounds
-                .pull_over
-                .place
-                .map(|place| scene.line.to_frenet(place.position).s);
-            match (path.blocked_by, place) {
-                (Some(id), Some(s)) if path.end_s() < s => {
-                    Verdict::Leave(Assessment::NoPath(Rejection::Touches(id)))
-                }
-                _ => Verdict::Take,
+        Label::PullOver => match path.blocked_by {
+            Some(id) if !path.serves(goal(scene, context, bound.label)) => {
+                Verdict::Leave(Assessment::NoPath(Rejection::Touches(id)))
             }
-        }
+            _ => Verdict::Take,
+        },
         Label::Regular {
             borrow: Borrow::None, ..
         } if path.blocked_by.is_some() => Verdict::Keep,
@@ -158,14 +151,20 @@ fn is_own_lane(label: Label) -> bool {
     )
 }
 
-/// The offset that a path is drawn to: the line, or the place at the road's edge.
-fn target_l(scene: &Scene, context: &Context, label: Label) -> f64 {
+/// Along the line, or to the place at the road's edge.
+fn goal(scene: &Scene, context: &Context, label: Label) -> Goal {
     let place = context
         .bounds
         .pull_over
         .place
         .filter(|_| label == Label::PullOver);
-    place.map_or(0.0, |place| scene.line.to_frenet(place.position).l)
+    place.map_or(Goal::default(), |place| {
+        let at = scene.line.to_frenet(place.position);
+        Goal {
+            l: at.l,
+            stop_s: Some(at.s),
+        }
+    })
 }
 
 /// The stretch of a path on which the body is outside the own lane.

@@ -1,6 +1,6 @@
 //! `corridor list` and `corridor validate`.
 
-use super::{Gate, source};
+use super::{Gate, output, source};
 use clap::Args;
 use corridor_scenarios::{Family, MapCache, ScenarioError, catalog};
 use std::path::Path;
@@ -24,10 +24,17 @@ impl List {
             match entry.load(&maps) {
                 Ok(family) => {
                     let kind = if family.is_fixed() { "scenario" } else { "family  " };
-                    println!("{:width$}  {kind}  {}", entry.name, family.description());
+                    output::print(&format!(
+                        "{:width$}  {kind}  {}\n",
+                        entry.name,
+                        family.description()
+                    ));
                 }
                 Err(ScenarioError::MapNotFound { .. }) => {
-                    println!("{:width$}  skipped   its map is not on this machine", entry.name);
+                    output::print(&format!(
+                        "{:width$}  skipped   its map is not on this machine\n",
+                        entry.name
+                    ));
                 }
                 Err(error) => return Err(error.into()),
             }
@@ -54,7 +61,7 @@ impl Validate {
                     Ok(text) => println!("{}: {text}", file.display()),
                     Err(error) => {
                         mistakes += 1;
-                        eprintln!("error: {error:#}");
+                        eoutput::print(&format!("error: {error:#}\n"));
                     }
                 }
             }

@@ -1,6 +1,7 @@
 //! Writing results: whole files or none.
 
 use anyhow::Context;
+use std::io::Write;
 use std::path::Path;
 
 /// Writes `text` to `path` by way of a file beside it, so that nobody ever reads half of it.
@@ -19,4 +20,10 @@ pub(crate) fn write(path: &Path, text: &str) -> anyhow::Result<()> {
 /// Makes a folder and those above it.
 pub(crate) fn make_folder(path: &Path) -> anyhow::Result<()> {
     std::fs::create_dir_all(path).with_context(|| format!("cannot make the folder `{}`", path.display()))
+}
+
+/// Prints a result. A reader that has gone away (`corridor … | head`) is no error.
+pub(crate) fn print(text: &str) {
+    let mut out = std::io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
 }

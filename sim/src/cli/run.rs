@@ -37,7 +37,7 @@ impl Run {
         let family = source::family(&self.scenario, &MapCache::new())?;
         let drawn = family.draw(self.seed)?;
         let verdict = self.run(&family, &drawn.scenario, &settings)?;
-        print(&verdict);
+        output::print(&text(&verdict));
         Ok(if verdict.pass { Gate::Passed } else { Gate::Failed })
     }
 
@@ -58,14 +58,15 @@ impl Run {
         if self.trace.is_none() {
             std::fs::remove_file(&path)?;
         }
-        println!("page {}", page.display());
+        output::print(&format!("page {}\n", page.display()));
         Ok(verdict)
     }
 }
 
-fn print(verdict: &Verdict) {
-    println!(
-        "{} {}",
+/// The verdict for a terminal: gates that failed are marked `!`, other metrics beyond their threshold `*`.
+fn text(verdict: &Verdict) -> String {
+    let mut text = format!(
+        "{} {}\n",
         if verdict.pass { "PASS" } else { "FAIL" },
         verdict.summary
     );
@@ -73,20 +74,21 @@ fn print(verdict: &Verdict) {
         let value = metric.value.map_or("-".to_owned(), |value| format!("{value:.3}"));
         let threshold = metric
             .threshold
-            .map_or(String::new(), |threshold| format!(" (threshold {threshold})"));
-        let mark = if metric.pass {
-            " "
-        } else if metric.gate {
-            "!"
-        } else {
-            "*"
+            .map_or(String::new(), |threshold| format!(" (threshold {threshold:.3})"));
+        let mark = match (metric.pass, metric.gate) {
+            (true, _) => ' ',
+            (false, true) => '!',
+            (false, false) => '*',
         };
         let worst = metric.worst_t.map_or(String::new(), |t| format!(" at {t:.1} s"));
         let whom = metric
             .worst_obstacle
             .as_ref()
             .map_or(String::new(), |name| format!(" `{name}`"));
-        println!("{mark} {:28} {value}{threshold}{worst}{whom}", metric.name);
+        text.push_str(&format!(
+            "{mark} {:28} {value}{threshold}{worst}{whom}\n",
+            metric.name
+        ));
     }
-    println!("digest {}", verdict.digest);
+    text + &format!("digest {}\n", verdict.digest)
 }

@@ -47,7 +47,7 @@ impl Sweep {
         let settings = Settings::with(&self.settings)?;
         let selection = source::select(&self.scenarios, &MapCache::new())?;
         for skipped in &selection.skipped {
-            eprintln!("skipped {skipped}");
+            eoutput::print(&format!("skipped {skipped}\n"));
         }
         anyhow::ensure!(
             !selection.families.is_empty(),
@@ -63,7 +63,7 @@ impl Sweep {
             }
         })?;
         bar.finish_and_clear();
-        print!("{}", to_table(&report, Colour::from_env()));
+        output::print(&to_table(&report, Colour::from_env()));
         self.write(&plan, &settings, &report)?;
         Ok(if report.passed() {
             Gate::Passed

@@ -18,7 +18,7 @@ impl Replay {
     pub(crate) fn execute(&self) -> anyhow::Result<Gate> {
         let trace = Trace::open(&self.trace)?;
         let replayed = replay::replay(&trace).with_context(|| format!("`{}`", self.trace.display()))?;
-        println!("{replayed}");
+        output::print(&format!("{replayed}\n"));
         Ok(if matches!(replayed, Replayed::Same { .. }) {
             Gate::Passed
         } else {
@@ -43,7 +43,7 @@ impl Explain {
             "`--at {}`: a time in seconds is wanted",
             self.at
         );
-        print!("{}", explain::tick(&Trace::open(&self.trace)?, self.at));
+        output::print(&explain::tick(&Trace::open(&self.trace)?, self.at));
         Ok(Gate::Passed)
     }
 }
@@ -65,7 +65,7 @@ impl View {
             .clone()
             .unwrap_or_else(|| self.trace.with_extension("html"));
         output::write(&path, &view::page(&trace))?;
-        println!("{}", path.display());
+        output::print(&format!("{}\n", path.display()));
         Ok(Gate::Passed)
     }
 }

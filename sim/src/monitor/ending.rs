@@ -73,9 +73,9 @@ impl EndingWatch {
             Ending::PulledOver
         } else if in_lane >= LANE_SETTLED && matches!(sample.scenario.command, Command::ChangeLane(_)) {
             Ending::LaneChanged
-        } else if expect == Expectation::Standstill && standing >= STANDS_FOR && is_blocked() {
+        } else if expect.allows_standstill() && standing >= STANDS_FOR && is_blocked() {
             Ending::StoodStill
-        } else if expect == Expectation::Refusal && self.is_refused(sample) {
+        } else if expect.allows_refusal() && self.is_refused(sample) {
             Ending::Refused
         } else if is_out_of_time(sample) {
             Ending::Timeout
@@ -116,14 +116,15 @@ fn is_out_of_time(sample: &Sample) -> bool {
 
 /// Whether `ending` is what the scenario expects.
 pub(super) fn is_expected(scenario: &Scenario, ending: Ending) -> bool {
-    matches!(
-        (scenario.expect, ending),
-        (Expectation::Progress(_), Ending::GoalReached)
-            | (Expectation::PulledOver, Ending::PulledOver)
-            | (Expectation::LaneChanged, Ending::LaneChanged)
-            | (Expectation::Refusal, Ending::Refused)
-            | (Expectation::Standstill, Ending::StoodStill)
-    )
+    let expect = scenario.expect;
+    match ending {
+        Ending::GoalReached => expect.goal().is_some(),
+        Ending::PulledOver => expect.allows_pull_over(),
+        Ending::LaneChanged => expect == Expectation::LaneChanged,
+        Ending::Refused => expect.allows_refusal(),
+        Ending::StoodStill => expect.allows_standstill(),
+        Ending::Collision | Ending::Timeout | Ending::DeciderFailed => false,
+    }
 }
 
 fn is_within(value: f64, (low, high): (f64, f64)) -> bool {

@@ -7,7 +7,6 @@ use super::measure::Measure;
 use super::view::Sample;
 use corridor_decider::reference_line::LineQuery;
 use corridor_scenarios::Scenario;
-use corridor_scenarios::scenario::Expectation;
 
 /// Floor under both distances, m: with nuPlan's 2 m a parked ego would pass on every route up to 10 m.
 const FLOOR: f64 = 0.1;
@@ -24,20 +23,20 @@ pub(super) struct ProgressWatch {
     start: f64,
     wanted: f64,
     is_goal: bool,
+    is_required: bool,
     made: f64,
 }
 
 impl ProgressWatch {
     pub(super) fn new(scenario: &Scenario) -> Self {
         let start = scenario.line.to_frenet(scenario.ego.pose.position()).s;
-        let (wanted, is_goal) = match scenario.expect {
-            Expectation::Progress(distance) => (distance, true),
-            _ => (scenario.line.length() - start, false),
-        };
+        let goal = scenario.expect.goal();
+        let wanted = goal.unwrap_or(scenario.line.length() - start);
         Self {
             start,
             wanted,
-            is_goal,
+            is_goal: goal.is_some(),
+            is_required: goal.is_some() && !scenario.expect.allows_standstill(),
             made: 0.0,
         }
     }
@@ -66,7 +65,7 @@ impl ProgressWatch {
         let ratio = Some(self.ratio());
         let minimum = Measure::new("progress_min", ratio);
         vec![
-            if self.is_goal {
+            if self.is_required {
                 minimum.at_least(MINIMUM).gate()
             } else {
                 minimum

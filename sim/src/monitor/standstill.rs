@@ -7,7 +7,6 @@ use super::view::Sample;
 use corridor_decider::decision::StopCause;
 use corridor_decider::frame::Command;
 use corridor_decider::reference_line::LineQuery;
-use corridor_scenarios::scenario::Expectation;
 
 /// Below this speed the ego stands, m/s.
 const STANDS: f64 = 0.01;
@@ -61,7 +60,7 @@ fn has_reason(sample: &Sample) -> bool {
 fn is_near_destination(sample: &Sample, command: Command) -> bool {
     let line = &sample.scenario.line;
     let mut ends = vec![line.length()];
-    if let Expectation::Progress(distance) = sample.scenario.expect {
+    if let Some(distance) = sample.scenario.expect.goal() {
         ends.push(line.to_frenet(sample.scenario.ego.pose.position()).s + distance);
     }
     if let Command::PullOver(place) = command {

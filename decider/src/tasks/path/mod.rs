@@ -68,22 +68,36 @@ impl Path {
         self.points.last().map_or(0.0, |p| p.distance)
     }
 
+    /// Whether it leads all the way, or at least to where the car stops.
+    pub fn serves(&self, goal: Goal) -> bool {
+        self.blocked_by.is_none() || goal.stop_s.is_some_and(|s| self.end_s() >= s)
+    }
+
     /// Station of its end, m.
     pub fn end_s(&self) -> f64 {
         self.points.last().map_or(0.0, |p| p.s)
     }
 }
 
-/// The best path inside `bound`, drawn towards `target_l`.
+/// What a path is for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Goal {
+    /// Offset that it is drawn to, m.
+    pub l: f64,
+    /// Station at which it has to be at that offset, along the line, because the car stops there.
+    pub stop_s: Option<f64>,
+}
+
+/// The best path inside `bound`.
 ///
 /// # Errors
 /// [`Rejection`] of the most promising path when none can be driven.
-pub fn plan(scene: &Scene, table: &LineTable, bound: &PathBound, target_l: f64) -> Result<Path, Rejection> {
-    let corridor = Corridor::new(scene, table, bound, target_l).ok_or(Rejection::TooShort)?;
+pub fn plan(scene: &Scene, table: &LineTable, bound: &PathBound, goal: Goal) -> Result<Path, Rejection> {
+    let corridor = Corridor::new(scene, table, bound, goal).ok_or(Rejection::TooShort)?;
     let smoothed = smooth::solve(&corridor).and_then(|p| assess::assess(scene, table, &corridor, &p));
     match smoothed {
-        Ok(path) if path.blocked_by.is_none() => Ok(finish(path, bound)),
-        smoothed => best_of_bundle(scene, table, &corridor, smoothed).map(|path| finish(path, bound)),
+        Ok(path) if path.serves(goal) => Ok(finish(path, bound)),
+        smoothed => best_of_bundle(scene, table, &corridor, goal, smoothed).map(|path| finish(path, bound)),
     }
 }
 
@@ -92,6 +106,7 @@ fn best_of_bundle(
     scene: &Scene,
     table: &LineTable,
     corridor: &Corridor,
+    goal: Goal,
     smoothed: Result<Path, Rejection>,
 ) -> Result<Path, Rejection> {
     let mut best = smoothed;
@@ -104,11 +119,11 @@ fn best_of_bundle(
         let Ok(path) = assess::assess(scene, table, corridor, &profile) else {
             continue;
         };
-        let free = path.blocked_by.is_none();
+        let serves = path.serves(goal);
         if best.as_ref().map_or(-1.0, Path::end_s) + table::STEP < path.end_s() {
             best = Ok(path);
         }
-        if free {
+        if serves {
             break;
         }
     }

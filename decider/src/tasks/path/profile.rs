@@ -1,5 +1,6 @@
 //! Lateral offset as a function of station, and the corridor it has to stay in.
 
+use super::Goal;
 use super::table::{LineTable, STEP};
 use crate::tasks::path_bounds::PathBound;
 use crate::tasks::scene::Scene;
@@ -7,6 +8,12 @@ use crate::tasks::scene::Scene;
 /// How far behind the ego's place the corridor may exclude it, and over which length that may last, m: a
 /// car that has strayed over its bound must be allowed back.
 const RETURN_LENGTH: f64 = 12.0;
+
+/// How far before its stop a car has to be in place, m: it stops straight.
+const STRAIGHTEN: f64 = 2.0;
+
+/// How far from its place across the line it may stop, m.
+const ARRIVAL_TOLERANCE: f64 = 0.1;
 
 /// A bound at the stations of the path, with what pulls the path where.
 #[derive(Clone, Debug)]
@@ -25,7 +32,7 @@ pub(super) struct Corridor {
 
 impl Corridor {
     /// The bound at every metre, each the narrowest of the stations around it. `None` if it is too short.
-    pub(super) fn new(scene: &Scene, table: &LineTable, bound: &PathBound, target_l: f64) -> Option<Self> {
+    pub(super) fn new(scene: &Scene, table: &LineTable, bound: &PathBound, goal: Goal) -> Option<Self> {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -36,7 +43,7 @@ impl Corridor {
         if count < 4 {
             return None;
         }
-        let limits: Vec<(f64, f64)> = (0..count)
+        let mut limits: Vec<(f64, f64)> = (0..count)
             .map(|k| {
                 let (first, last) = ((k * stride).saturating_sub(stride - 1), k * stride + stride - 1);
                 let near = &bound.points[first..=last.min(bound.points.len() - 1)];
@@ -52,6 +59,13 @@ impl Corridor {
                 }
             })
             .collect();
+        if let Some(stop_s) = goal.stop_s {
+            let arrival = table.rows.partition_point(|row| row.s < stop_s - STRAIGHTEN);
+            limits
+                .iter_mut()
+                .skip(arrival)
+                .for_each(|limit| *limit = arrive(*limit, goal.l));
+        }
         let config = &scene.config.path;
         let start = scene.lateral.l;
         let outside = (limits[0].0 - start[0]).max(start[0] - limits[0].1).max(0.0);
@@ -64,7 +78,7 @@ impl Corridor {
         let smoothing_length = (scene.start.v * config.smoothing_time).max(config.least_smoothing_length);
         Some(Self {
             limits,
-            target_l,
+            target_l: goal.l,
             start,
             smoothing_length,
             tolerance,
@@ -75,6 +89,12 @@ impl Corridor {
     pub(super) fn len(&self) -> usize {
         self.limits.len()
     }
+}
+
+/// A limit narrowed to the place where the car stops, as far as it reaches there.
+fn arrive((lo, hi): (f64, f64), l: f64) -> (f64, f64) {
+    let l = l.clamp(lo, hi);
+    (lo.max(l - ARRIVAL_TOLERANCE), hi.min(l + ARRIVAL_TOLERANCE))
 }
 
 /// Offset and its first three derivatives by station, at every station of the corridor.
