@@ -61,7 +61,7 @@ impl Validate {
                     Ok(text) => println!("{}: {text}", file.display()),
                     Err(error) => {
                         mistakes += 1;
-                        eoutput::print(&format!("error: {error:#}\n"));
+                        eprintln!("error: {error:#}");
                     }
                 }
             }

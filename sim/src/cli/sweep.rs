@@ -47,7 +47,7 @@ impl Sweep {
         let settings = Settings::with(&self.settings)?;
         let selection = source::select(&self.scenarios, &MapCache::new())?;
         for skipped in &selection.skipped {
-            eoutput::print(&format!("skipped {skipped}\n"));
+            eprintln!("skipped {skipped}");
         }
         anyhow::ensure!(
             !selection.families.is_empty(),
