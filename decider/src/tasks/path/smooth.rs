@@ -18,8 +18,12 @@ const STIFFNESS: f64 = 1e6;
 /// How far inside a limit its spring rests, m, so that the overshoot stays inside.
 const INSET: f64 = 0.01;
 
-/// Newton steps after which the active set counts as cycling. A tenth of that is usual.
-const MAX_STEPS: usize = 30;
+/// Newton steps in which stations may let go of a limit again. Fewer than ten are usual; a set that still
+/// changes then is cycling, and from there on only grows.
+const FREE_STEPS: usize = 15;
+
+/// All Newton steps: a growing set ends by itself, this is only a bound on the time.
+const MAX_STEPS: usize = 60;
 
 /// One row of the lower triangle: the diagonal last.
 type Row = [f64; BAND + 1];
@@ -36,7 +40,7 @@ pub(super) fn solve(corridor: &Corridor) -> Result<Profile, Rejection> {
     let past = past_offsets(corridor.start);
     let (matrix, rhs) = normal_equations(corridor, past);
     let mut press = vec![Press::None; rhs.len()];
-    for _ in 0..MAX_STEPS {
+    for step in 0..MAX_STEPS {
         let (mut stiffened, mut pulled) = (matrix.clone(), rhs.clone());
         for (k, press) in press.iter().enumerate() {
             if let Some(edge) = rest(corridor.limits[k + 1], *press) {
@@ -48,7 +52,11 @@ pub(super) fn solve(corridor: &Corridor) -> Result<Profile, Rejection> {
         let next: Vec<Press> = pulled
             .iter()
             .zip(&corridor.limits[1..])
-            .map(|(l, limits)| pressed(*l, *limits))
+            .zip(&press)
+            .map(|((l, limits), before)| match pressed(*l, *limits) {
+                Press::None if step >= FREE_STEPS => *before,
+                now => now,
+            })
             .collect();
         if next == press {
             pulled.insert(0, corridor.start[0]);

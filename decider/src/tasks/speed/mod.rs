@@ -102,8 +102,9 @@ fn nearest_stop(scene: &Scene, path: &Path, stop_at: Option<Stop>) -> Stop {
             cause: StopCause::PathEnd,
         },
     };
+    // A place chosen to stop at needs no gap beyond what its own search has kept.
     stop_at
-        .filter(|stop| stop.distance <= end.distance)
+        .filter(|stop| stop.distance <= path.length())
         .unwrap_or(end)
 }
 

@@ -17,6 +17,9 @@ const STEPS: u32 = 80;
 /// Slower than this the car stands, m/s.
 const STANDSTILL: f64 = 0.02;
 
+/// With less than this left to a stop it counts as reached, m.
+const OVERSHOT: f64 = 0.01;
+
 /// Gain of the free-road speed controller, 1/s.
 const CRUISE_GAIN: f64 = 0.8;
 
@@ -161,7 +164,10 @@ impl Planner<'_> {
                 0.0_f64.min(gap)
             };
         }
-        let braking = needed / (2.0 * gap.max(0.01));
+        if gap <= OVERSHOT {
+            return -self.config.braking;
+        }
+        let braking = needed / (2.0 * gap);
         // Starting up towards a near stop, the speed from which one can still stop gently is the limit.
         let gentle = (2.0 * self.config.braking * BRAKE_LATE * gap.max(0.0)).sqrt();
         if braking < self.config.braking * BRAKE_LATE {
