@@ -6,7 +6,7 @@ use crate::context::{Context, LastTrajectory};
 use crate::decision::{Assessment, Candidate, Decision, Outcome, PullOverTarget, Rejection, Stop, StopCause};
 use crate::frame::{Command, Frame};
 use crate::tasks::path::{LineTable, Path};
-use crate::tasks::path_bounds::{self, Input, Label, PathBounds, PullOverKind};
+use crate::tasks::path_bounds::{self, Input, Label, PathBound, PathBounds, PullOverKind};
 use crate::tasks::scene::Scene;
 use crate::tasks::start_point::{StartPoint, at_time, start_point};
 use crate::tasks::{lane_borrow, lane_change, speed};
@@ -77,7 +77,12 @@ fn decide_along(scene: &Scene, context: &mut Context) -> Decision {
     let Ok(bounds) = path_bounds::decide(scene.line, &input, &mut context.bounds) else {
         return emergency_stop(scene.frame, &scene.start, context, scene.vehicle);
     };
-    let table = LineTable::new(scene.line, scene.ego.s);
+    let end_s = bounds
+        .bounds
+        .iter()
+        .map(PathBound::end_s)
+        .fold(scene.ego.s, f64::max);
+    let table = LineTable::new(scene.line, scene.ego.s, end_s);
     let choice = choice::choose(scene, &table, &bounds, context);
     lane_borrow::observe(&mut context.borrow, choice.own_lane_is_blocked);
     drive(scene, context, bounds, choice)
