@@ -54,7 +54,7 @@ pub(super) fn choose(scene: &Scene, table: &LineTable, bounds: &PathBounds, cont
     let is_out = overhang(scene) > OUT_OF_LANE && !context.borrow.sides.is_empty();
     for place in in_order(&bounds.bounds, is_out) {
         let bound = &bounds.bounds[place];
-        let path = match path::plan(scene, table, bound, goal(scene, context, bound.label)) {
+        let path = match find_path(scene, table, bound, context) {
             Ok(path) => path,
             Err(rejection) => {
                 if is_own_lane(bound.label) {
@@ -87,6 +87,29 @@ pub(super) fn choose(scene: &Scene, table: &LineTable, bounds: &PathBounds, cont
         choice.assessments[*place] = Assessment::Chosen;
     }
     choice
+}
+
+/// A path inside a bound: a new one, or the last one where the new one does not lead on.
+fn find_path(
+    scene: &Scene,
+    table: &LineTable,
+    bound: &PathBound,
+    context: &Context,
+) -> Result<Path, Rejection> {
+    let goal = goal(scene, context, bound.label);
+    let new = path::plan(scene, table, bound, goal);
+    if new.as_ref().is_ok_and(|path| path.serves(goal)) {
+        return new;
+    }
+    let last = context.path.as_ref().filter(|last| last.label == bound.label);
+    let old = last.and_then(|last| path::reuse(scene, &last.points));
+    match old
+        .map(|path| path::finish(path, bound))
+        .filter(|path| path.serves(goal))
+    {
+        Some(old) => Ok(old),
+        None => new,
+    }
 }
 
 /// What to do with a drivable path.

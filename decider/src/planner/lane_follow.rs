@@ -2,7 +2,7 @@
 
 use super::choice::{self, Choice};
 use crate::config::Config;
-use crate::context::{Context, LastTrajectory};
+use crate::context::{Context, LastPath, LastTrajectory};
 use crate::decision::{Assessment, Candidate, Decision, Outcome, PullOverTarget, Rejection, Stop, StopCause};
 use crate::frame::{Command, Frame};
 use crate::tasks::path::{LineTable, Path};
@@ -119,12 +119,17 @@ fn destination(scene: &Scene) -> Option<crate::geometry::Vec2> {
 /// Turns the choice into a trajectory and remembers what the next tick needs.
 fn drive(scene: &Scene, context: &mut Context, bounds: PathBounds, choice: Choice) -> Decision {
     let Some((chosen, path)) = choice.path else {
+        context.path = None;
         let mut decision = emergency_stop(scene.frame, &scene.start, context, scene.vehicle);
         decision.candidates = candidates(bounds, &choice.assessments);
         return decision;
     };
     let label = bounds.bounds[chosen].label;
     context.bounds.passed.clone_from(&bounds.passed[chosen]);
+    context.path = Some(LastPath {
+        label,
+        points: path.points.clone(),
+    });
     let planned = speed::plan(scene, &path, pull_over_stop(scene, context, label, &path));
     let place = context
         .bounds

@@ -33,7 +33,7 @@ pub(super) fn assess(
     if !profile.l.iter().enumerate().all(inside) {
         return Err(Rejection::LeavesBound);
     }
-    let mut points = points(table, profile);
+    let points = points(table, profile);
     let limit = scene.vehicle.max_kappa() * scene.config.path.curvature_share;
     let bends = |p: &PathPoint| {
         let excess = START_EXCESS * (1.0 - p.distance / START_LENGTH).max(0.0);
@@ -42,6 +42,11 @@ pub(super) fn assess(
     if points.iter().skip(1).any(bends) {
         return Err(Rejection::Curvature);
     }
+    until_contact(scene, points)
+}
+
+/// A path as far as the body touches nothing.
+pub(super) fn until_contact(scene: &Scene, mut points: Vec<PathPoint>) -> Result<Path, Rejection> {
     let contact = first_contact(scene, &points);
     if let Some((k, id)) = contact {
         points.truncate(k);

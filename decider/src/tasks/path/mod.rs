@@ -7,9 +7,11 @@
 mod assess;
 mod bundle;
 mod profile;
+mod reuse;
 mod smooth;
 mod table;
 
+pub use reuse::reuse;
 pub use table::LineTable;
 
 use super::path_bounds::PathBound;
@@ -131,7 +133,7 @@ fn best_of_bundle(
 }
 
 /// A path that leads to the end of a blocked bound is blocked by what blocks the bound.
-fn finish(mut path: Path, bound: &PathBound) -> Path {
+pub(crate) fn finish(mut path: Path, bound: &PathBound) -> Path {
     path.blocked_by = path.blocked_by.or(bound.blocked_by);
     path
 }

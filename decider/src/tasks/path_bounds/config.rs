@@ -105,6 +105,8 @@ pub struct Quirks {
     pub lane_change_discards_fallback: bool,
     /// 13: a bound that does not hold the ego is an error of the whole task.
     pub asserts_ego_inside: bool,
+    /// Not in the list: beside a pull-over bound there is only the fallback, whatever becomes of its path.
+    pub pull_over_stands_alone: bool,
     /// 15: beside the lane line a pull-over leaves no room for half the car, and its side shifts with the
     /// line's offset.
     pub pull_over_overhang: bool,
@@ -139,6 +141,7 @@ impl Quirks {
             silent_blocker: true,
             lane_change_discards_fallback: true,
             asserts_ego_inside: true,
+            pull_over_stands_alone: true,
             pull_over_overhang: true,
             road_edge_at_axle: true,
             unsigned_road_edge: true,
