@@ -6,6 +6,7 @@
 
 mod assess;
 mod bundle;
+mod corridor;
 mod profile;
 mod reuse;
 mod smooth;
@@ -18,7 +19,8 @@ use super::path_bounds::PathBound;
 use super::scene::Scene;
 use crate::decision::{PathPoint, Rejection};
 use crate::frame::ObstacleId;
-use profile::{Corridor, Profile};
+use corridor::Corridor;
+use profile::Profile;
 use serde::{Deserialize, Serialize};
 
 /// Settings of the path layer.

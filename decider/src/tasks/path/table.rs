@@ -15,6 +15,8 @@ pub(super) struct Row {
     pub theta: f64,
     pub kappa: f64,
     pub dkappa: f64,
+    /// To the (left, right) edges of the road, m.
+    pub road: (f64, f64),
 }
 
 /// The line at `s0`, `s0 + 1`, …
@@ -39,6 +41,7 @@ impl LineTable {
                 theta: at.theta,
                 kappa: at.kappa,
                 dkappa: 0.0,
+                road: line.road_width(s).unwrap_or((f64::MAX, f64::MAX)),
             });
             s += STEP;
         }
