@@ -55,7 +55,12 @@ impl Planner {
                 return Some(target);
             }
         }
-        (!frame.lines.is_empty()).then(|| scene(0))
+        let mut own = (!frame.lines.is_empty()).then(|| scene(0))?;
+        if lane_change::target_line(frame).is_some() {
+            // Who keeps the speed of the traffic beside him never meets another gap.
+            own.cruise_speed *= self.config.speed.gap_seeking_share;
+        }
+        Some(own)
     }
 }
 

@@ -112,6 +112,8 @@ pub struct Quirks {
     pub pull_over_overhang: bool,
     /// Not in the list: the road's edge is looked up at the rear axle only, not under the whole body.
     pub road_edge_at_axle: bool,
+    /// Not in the list: a place to pull over may be one that the car cannot turn in to.
+    pub unreachable_place: bool,
     /// 16: the distance to the road edge is taken from the size of `l`, whatever its sign.
     pub unsigned_road_edge: bool,
     /// 17: only the first station of a place to pull over is checked for junctions.
@@ -144,6 +146,7 @@ impl Quirks {
             pull_over_stands_alone: true,
             pull_over_overhang: true,
             road_edge_at_axle: true,
+            unreachable_place: true,
             unsigned_road_edge: true,
             junction_at_anchor_only: true,
             unchecked_road_width: true,

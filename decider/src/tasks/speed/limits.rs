@@ -38,7 +38,7 @@ impl Envelope {
             .map(|point| {
                 let bend = (config.lateral_acceleration / point.kappa.abs().max(STRAIGHT)).sqrt();
                 let limit = scene.line.sample_at(point.s).speed_limit.unwrap_or(f64::MAX);
-                bend.min(limit).min(scene.frame.cruise_speed)
+                bend.min(limit).min(scene.cruise_speed)
             })
             .collect();
         for (k, pair) in path.points.windows(2).enumerate() {

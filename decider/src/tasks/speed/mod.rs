@@ -47,6 +47,8 @@ pub struct SpeedConfig {
     pub lateral_margin: f64,
     /// Time that has to lie between the ego's and a crossing obstacle's use of the same place, s.
     pub yield_time: f64,
+    /// Share of the cruise speed driven while waiting for a gap in the lane to change to.
+    pub gap_seeking_share: f64,
     /// How far before its place a pull-over stops, m: within the tolerance, on its near side.
     pub pull_over_early: f64,
 }
@@ -67,6 +69,7 @@ impl Default for SpeedConfig {
             follow_time: 1.4,
             lateral_margin: 0.3,
             yield_time: 1.5,
+            gap_seeking_share: 0.85,
             pull_over_early: 0.25,
         }
     }

@@ -167,13 +167,7 @@ impl Planner<'_> {
             Response::Ignore => free,
             Response::Follow => claim.at(state.t).map_or(free, |there| {
                 let gap = there.low - state.distance;
-                rules::follow(
-                    self.config,
-                    state.v,
-                    claim.s_dot,
-                    gap,
-                    self.scene.frame.cruise_speed,
-                )
+                rules::follow(self.config, state.v, claim.s_dot, gap, self.scene.cruise_speed)
             }),
             Response::Yield => fence(claim, state).map_or(free, |fence| {
                 let gap = fence - self.config.follow_distance - state.distance;
