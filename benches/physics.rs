@@ -70,8 +70,8 @@ fn obstacle(id: u32, line: &Arc<ReferenceLine>) -> Obstacle {
             lane_change: None,
         },
         2 if id == 7 => Behaviour::Pedestrian {
-            from: Vec2::new(s, -4.0),
-            to: Vec2::new(s, -3.0),
+            from: Vec2::new(s, -9.0),
+            to: Vec2::new(s, -5.0),
             speed: 1.2,
             trigger: Trigger::Time(1.0),
         },

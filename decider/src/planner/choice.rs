@@ -5,7 +5,7 @@
 
 use super::lane_follow::rejected;
 use crate::context::{Context, LastTrajectory};
-use crate::decision::{Assessment, Rejection, TrajectoryPoint};
+use crate::decision::{Assessment, PathPoint, Rejection, TrajectoryPoint};
 use crate::frame::ObstacleId;
 use crate::geometry::Pose;
 use crate::reference_line::LineQuery;
@@ -29,6 +29,9 @@ const PASSING: (f64, f64) = (1.2, 7.0);
 /// Once the body is this far over the own lane's line, turning back is no safer than going on, m.
 const COMMITTED: f64 = 0.5;
 
+/// Overhang from which a car counts as out of its lane, m.
+const OUT_OF_LANE: f64 = 0.2;
+
 /// The choice of one tick.
 #[derive(Debug)]
 pub(super) struct Choice {
@@ -36,8 +39,8 @@ pub(super) struct Choice {
     pub path: Option<(usize, Path)>,
     /// Per bound what became of it.
     pub assessments: Vec<Assessment>,
-    /// Whether the own lane alone would not do.
-    pub own_lane_is_blocked: bool,
+    /// Whether the own lane alone would not do, if that was looked at.
+    pub own_lane_is_blocked: Option<bool>,
 }
 
 /// Looks at the bounds in order of preference until one is good.
@@ -45,20 +48,26 @@ pub(super) fn choose(scene: &Scene, table: &LineTable, bounds: &PathBounds, cont
     let mut choice = Choice {
         path: None,
         assessments: vec![Assessment::NotTried; bounds.bounds.len()],
-        own_lane_is_blocked: false,
+        own_lane_is_blocked: None,
     };
     let mut blocked_own: Option<(usize, Path)> = None;
-    for place in in_order(&bounds.bounds) {
+    let is_out = overhang(scene) > OUT_OF_LANE && !context.borrow.sides.is_empty();
+    for place in in_order(&bounds.bounds, is_out) {
         let bound = &bounds.bounds[place];
-        let path = match path::plan(scene, table, bound, goal(scene, context, bound.label)) {
+        let path = match find_path(scene, table, bound, context) {
             Ok(path) => path,
             Err(rejection) => {
-                choice.own_lane_is_blocked |= is_own_lane(bound.label);
+                if is_own_lane(bound.label) {
+                    choice.own_lane_is_blocked = Some(true);
+                }
                 choice.assessments[place] = rejected(rejection);
                 continue;
             }
         };
         choice.assessments[place] = Assessment::Drivable { reach: path.length() };
+        if is_own_lane(bound.label) {
+            choice.own_lane_is_blocked = Some(path.blocked_by.is_some());
+        }
         if bound.label == Label::Fallback && blocked_own.is_some() {
             break;
         }
@@ -68,7 +77,6 @@ pub(super) fn choose(scene: &Scene, table: &LineTable, bounds: &PathBounds, cont
                 break;
             }
             Verdict::Keep => {
-                choice.own_lane_is_blocked = true;
                 blocked_own = Some((place, path));
             }
             Verdict::Leave(assessment) => choice.assessments[place] = assessment,
@@ -79,6 +87,29 @@ pub(super) fn choose(scene: &Scene, table: &LineTable, bounds: &PathBounds, cont
         choice.assessments[*place] = Assessment::Chosen;
     }
     choice
+}
+
+/// A path inside a bound: a new one, or the last one where the new one does not lead on.
+fn find_path(
+    scene: &Scene,
+    table: &LineTable,
+    bound: &PathBound,
+    context: &Context,
+) -> Result<Path, Rejection> {
+    let goal = goal(scene, context, bound.label);
+    let new = path::plan(scene, table, bound, goal);
+    if new.as_ref().is_ok_and(|path| path.serves(goal)) {
+        return new;
+    }
+    let last = context.path.as_ref().filter(|last| last.label == bound.label);
+    let old = last.and_then(|last| path::reuse(scene, &last.points));
+    match old
+        .map(|path| path::finish(path, bound))
+        .filter(|path| path.serves(goal))
+    {
+        Some(old) => Ok(old),
+        None => new,
+    }
 }
 
 /// What to do with a drivable path.
@@ -113,7 +144,8 @@ fn verdict(
             ..
         } => {
             let own_reach = blocked_own.map_or(0.0, |(_, own)| own.length());
-            if path.length() < own_reach + WORTH_BORROWING {
+            let leads_on = path.length() >= own_reach + WORTH_BORROWING && leads_back(scene, path);
+            if !leads_on && overhang(scene) <= COMMITTED {
                 return Verdict::Leave(Assessment::Drivable { reach: path.length() });
             }
             match occupant(scene, path) {
@@ -125,16 +157,20 @@ fn verdict(
     }
 }
 
-/// Places of the bounds by preference.
-fn in_order(bounds: &[PathBound]) -> Vec<usize> {
+/// Places of the bounds by preference. A car that is out of its lane comes back inside the borrowed bound,
+/// which holds both lanes.
+fn in_order(bounds: &[PathBound], is_out: bool) -> Vec<usize> {
     let rank = |label: Label| match label {
         Label::PullOver => 0,
         Label::LaneChange => 1,
         Label::Regular {
             borrow: Borrow::None, ..
+        } if is_out => 4,
+        Label::Regular {
+            borrow: Borrow::None, ..
         } => 2,
         Label::Regular { .. } => 3,
-        Label::Fallback => 4,
+        Label::Fallback => 5,
     };
     let mut places: Vec<usize> = (0..bounds.len()).collect();
     places.sort_by_key(|place| rank(bounds[*place].label));
@@ -210,7 +246,7 @@ impl Outing {
 /// The obstacle whose traffic leaves no time to go out of the own lane and back.
 fn occupant(scene: &Scene, path: &Path) -> Option<ObstacleId> {
     let outing = Outing::of(scene, path)?;
-    if is_committed(scene) {
+    if overhang(scene) > COMMITTED {
         return None;
     }
     let duration = outing.duration(scene.start.v);
@@ -222,11 +258,21 @@ fn occupant(scene: &Scene, path: &Path) -> Option<ObstacleId> {
         .map(|moving| moving.id)
 }
 
-fn is_committed(scene: &Scene) -> bool {
+/// How far the body is over a line of its own lane, m; negative inside.
+fn overhang(scene: &Scene) -> f64 {
     let half_width = scene.vehicle.half_width();
     let (left, right) = scene.line.lane_width(scene.ego.s).unwrap_or((f64::MAX, f64::MAX));
-    let over = (scene.ego.l + half_width - left).max(-(scene.ego.l - half_width) - right);
-    over > COMMITTED
+    (scene.ego.l + half_width - left).max(-(scene.ego.l - half_width) - right)
+}
+
+/// Whether a path is not blocked, or ends in the own lane: nobody goes out to stand on the wrong side.
+fn leads_back(scene: &Scene, path: &Path) -> bool {
+    let half_width = scene.vehicle.half_width();
+    let is_inside = |end: &PathPoint| {
+        let (left, right) = scene.line.lane_width(end.s).unwrap_or((0.0, 0.0));
+        end.l + half_width <= left && end.l - half_width >= -right
+    };
+    path.blocked_by.is_none() || path.points.last().is_some_and(is_inside)
 }
 
 /// Whether an obstacle at constant speed meets the ego while that is out of its lane.

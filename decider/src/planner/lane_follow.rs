@@ -2,11 +2,11 @@
 
 use super::choice::{self, Choice};
 use crate::config::Config;
-use crate::context::{Context, LastTrajectory};
+use crate::context::{Context, LastPath, LastTrajectory};
 use crate::decision::{Assessment, Candidate, Decision, Outcome, PullOverTarget, Rejection, Stop, StopCause};
 use crate::frame::{Command, Frame};
 use crate::tasks::path::{LineTable, Path};
-use crate::tasks::path_bounds::{self, Input, Label, PathBounds, PullOverKind};
+use crate::tasks::path_bounds::{self, Input, Label, PathBound, PathBounds, PullOverKind};
 use crate::tasks::scene::Scene;
 use crate::tasks::start_point::{StartPoint, at_time, start_point};
 use crate::tasks::{lane_borrow, lane_change, speed};
@@ -77,7 +77,12 @@ fn decide_along(scene: &Scene, context: &mut Context) -> Decision {
     let Ok(bounds) = path_bounds::decide(scene.line, &input, &mut context.bounds) else {
         return emergency_stop(scene.frame, &scene.start, context, scene.vehicle);
     };
-    let table = LineTable::new(scene.line, scene.ego.s);
+    let end_s = bounds
+        .bounds
+        .iter()
+        .map(PathBound::end_s)
+        .fold(scene.ego.s, f64::max);
+    let table = LineTable::new(scene.line, scene.ego.s, end_s);
     let choice = choice::choose(scene, &table, &bounds, context);
     lane_borrow::observe(&mut context.borrow, choice.own_lane_is_blocked);
     drive(scene, context, bounds, choice)
@@ -114,12 +119,17 @@ fn destination(scene: &Scene) -> Option<crate::geometry::Vec2> {
 /// Turns the choice into a trajectory and remembers what the next tick needs.
 fn drive(scene: &Scene, context: &mut Context, bounds: PathBounds, choice: Choice) -> Decision {
     let Some((chosen, path)) = choice.path else {
+        context.path = None;
         let mut decision = emergency_stop(scene.frame, &scene.start, context, scene.vehicle);
         decision.candidates = candidates(bounds, &choice.assessments);
         return decision;
     };
     let label = bounds.bounds[chosen].label;
     context.bounds.passed.clone_from(&bounds.passed[chosen]);
+    context.path = Some(LastPath {
+        label,
+        points: path.points.clone(),
+    });
     let planned = speed::plan(scene, &path, pull_over_stop(scene, context, label, &path));
     let place = context
         .bounds

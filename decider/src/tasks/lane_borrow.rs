@@ -71,14 +71,18 @@ pub fn decide(scene: &Scene, state: &mut BorrowState) -> Vec<Borrow> {
     state.sides.clone()
 }
 
-/// Takes note of whether the own lane alone would have done.
-pub fn observe(state: &mut BorrowState, own_lane_is_blocked: bool) {
-    if own_lane_is_blocked {
-        state.blocked_cycles += 1;
-        state.usable_cycles = 0;
-    } else {
-        state.blocked_cycles = 0;
-        state.usable_cycles += 1;
+/// Takes note of whether the own lane alone would have done; `None`: that was not looked at.
+pub fn observe(state: &mut BorrowState, own_lane_is_blocked: Option<bool>) {
+    match own_lane_is_blocked {
+        Some(true) => {
+            state.blocked_cycles += 1;
+            state.usable_cycles = 0;
+        }
+        Some(false) => {
+            state.blocked_cycles = 0;
+            state.usable_cycles += 1;
+        }
+        None => {}
     }
 }
 

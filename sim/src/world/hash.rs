@@ -37,7 +37,6 @@ impl Fnv {
 mod tests {
     use super::*;
 
-    /// The published value for the bytes `foobar` and two trailing zeros would not exist; single letters do.
     #[test]
     fn agrees_with_a_plain_byte_loop_and_sees_every_bit() {
         let mut hash = Fnv::new();

@@ -7,6 +7,8 @@ mod actuators;
 mod axles;
 mod bodies;
 mod clearance;
+#[cfg(test)]
+mod collision_tests;
 mod hash;
 mod motion;
 mod params;

@@ -1,11 +1,18 @@
 //! The speed that the road ahead allows: limits of the map and lateral acceleration in bends.
 
+use crate::decision::PathPoint;
 use crate::reference_line::LineQuery;
 use crate::tasks::path::Path;
 use crate::tasks::scene::Scene;
 
 /// Curvature below this limits no speed worth driving, 1/m.
 const STRAIGHT: f64 = 1e-4;
+
+/// Share of the steering's rate that a path may use.
+const STEERING_SHARE: f64 = 0.7;
+
+/// However fast the curvature changes, this slow is slow enough, m/s.
+const STEERING_CRAWL: f64 = 0.5;
 
 /// The fastest speed at each point of a path, reachable with comfortable braking.
 #[derive(Clone, Debug)]
@@ -27,6 +34,11 @@ impl Envelope {
                 bend.min(limit).min(scene.frame.cruise_speed)
             })
             .collect();
+        for (k, pair) in path.points.windows(2).enumerate() {
+            let limit = steering_limit(scene, &pair[0], &pair[1]);
+            speeds[k] = speeds[k].min(limit);
+            speeds[k + 1] = speeds[k + 1].min(limit);
+        }
         for k in (0..speeds.len() - 1).rev() {
             let gap = path.points[k + 1].distance - path.points[k].distance;
             let reachable = (speeds[k + 1] * speeds[k + 1] + 2.0 * config.braking * gap).sqrt();
@@ -48,6 +60,14 @@ impl Envelope {
         let next = self.speeds[(k + 1).min(self.speeds.len() - 1)];
         self.speeds[k] + (next - self.speeds[k]) * (place - k as f64).min(1.0)
     }
+}
+
+/// The speed at which the steering keeps up with the change of curvature between two points.
+fn steering_limit(scene: &Scene, from: &PathPoint, to: &PathPoint) -> f64 {
+    let vehicle = scene.vehicle;
+    let rate = vehicle.max_steer_angle_rate / vehicle.steer_ratio / vehicle.wheel_base * STEERING_SHARE;
+    let change = (to.kappa - from.kappa).abs() / (to.distance - from.distance).max(1e-6);
+    (rate / change.max(STRAIGHT)).max(STEERING_CRAWL)
 }
 
 /// Whether a line leaves room to plan on at all.

@@ -32,7 +32,8 @@ pub struct SpeedConfig {
     pub emergency_jerk: f64,
     /// Lateral acceleration in bends, m/s².
     pub lateral_acceleration: f64,
-    /// Gap to something that blocks the path, m (the original's `min_stop_distance_obstacle`).
+    /// Gap to something that blocks the path, m: room to pull out and pass it. The original's 6 m are too short
+    /// for a car that cannot reverse.
     pub stop_distance: f64,
     /// Least such gap where the car came upon it late, m.
     pub least_stop_distance: f64,
@@ -57,7 +58,7 @@ impl Default for SpeedConfig {
             jerk: 3.0,
             emergency_jerk: 20.0,
             lateral_acceleration: 2.5,
-            stop_distance: 6.0,
+            stop_distance: 9.0,
             least_stop_distance: 1.5,
             follow_distance: 4.0,
             follow_time: 1.4,
@@ -101,8 +102,9 @@ fn nearest_stop(scene: &Scene, path: &Path, stop_at: Option<Stop>) -> Stop {
             cause: StopCause::PathEnd,
         },
     };
+    // A place chosen to stop at needs no gap beyond what its own search has kept.
     stop_at
-        .filter(|stop| stop.distance <= end.distance)
+        .filter(|stop| stop.distance <= path.length())
         .unwrap_or(end)
 }
 

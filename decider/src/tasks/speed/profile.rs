@@ -17,6 +17,9 @@ const STEPS: u32 = 80;
 /// Slower than this the car stands, m/s.
 const STANDSTILL: f64 = 0.02;
 
+/// With less than this left to a stop it counts as reached, m.
+const OVERSHOT: f64 = 0.01;
+
 /// Gain of the free-road speed controller, 1/s.
 const CRUISE_GAIN: f64 = 0.8;
 
@@ -120,9 +123,11 @@ impl Planner<'_> {
 
     /// The acceleration that the tightest constraint allows.
     fn acceleration(&self, state: &State, claims: &[Claim], responses: &[Response]) -> f64 {
-        let mut wanted =
-            self.cruise(state)
-                .min(self.brake_for(state, self.stop.distance - state.distance, 0.0));
+        let mut wanted = self.cruise(state).min(self.brake_for(
+            state,
+            self.stop.distance - state.distance,
+            self.patience(),
+        ));
         for (claim, response) in claims.iter().zip(responses) {
             match response {
                 Response::Ignore => {}
@@ -134,7 +139,7 @@ impl Planner<'_> {
                 Response::Yield => {
                     if let Some(fence) = fence(claim, state) {
                         let gap = fence - self.config.follow_distance - state.distance;
-                        wanted = wanted.min(self.brake_for(state, gap, 0.0));
+                        wanted = wanted.min(self.brake_for(state, gap, BRAKE_LATE));
                     }
                 }
             }
@@ -150,24 +155,35 @@ impl Planner<'_> {
         (CRUISE_GAIN * (limit - state.v)).clamp(-self.config.braking * 1.25, self.config.acceleration)
     }
 
-    /// Braking that comes down to speed `v_end` in `gap` metres; none as long as that is far off.
-    fn brake_for(&self, state: &State, gap: f64, v_end: f64) -> f64 {
-        let needed = state.v * state.v - v_end * v_end;
-        if needed <= 0.0 {
-            // Standing or slow enough: do not creep over the line.
+    /// Braking that stops in `gap` metres; none as long as less than `patience` of comfortable braking would do.
+    fn brake_for(&self, state: &State, gap: f64, patience: f64) -> f64 {
+        if state.v <= 0.0 {
+            // Do not creep over the line.
             return if gap > STANDSTILL {
                 self.config.acceleration.min(gap * 2.0)
             } else {
                 0.0_f64.min(gap)
             };
         }
-        let braking = needed / (2.0 * gap.max(0.01));
-        // Starting up towards a near stop, the speed from which one can still stop gently is the limit.
-        let gentle = (2.0 * self.config.braking * BRAKE_LATE * gap.max(0.0)).sqrt();
-        if braking < self.config.braking * BRAKE_LATE {
-            return (CRUISE_GAIN * 2.0 * (gentle - state.v)).max(0.0);
+        if gap <= OVERSHOT {
+            return -self.config.braking;
+        }
+        let gentle = self.config.braking * patience;
+        let braking = state.v * state.v / (2.0 * gap);
+        if braking < gentle {
+            // Towards a near stop, the speed from which one can still stop gently is the limit.
+            return (CRUISE_GAIN * 2.0 * ((2.0 * gentle * gap).sqrt() - state.v)).max(0.0);
         }
         -braking
+    }
+
+    /// How long braking for the stop can wait. The end of the path moves on as the car does.
+    fn patience(&self) -> f64 {
+        if self.stop.cause == StopCause::PathEnd {
+            1.0
+        } else {
+            BRAKE_LATE
+        }
     }
 
     /// The Intelligent Driver Model behind a leader.
@@ -231,7 +247,7 @@ impl Planner<'_> {
                 );
             }
         }
-        let stops = self.brake_for(start, self.stop.distance - start.distance, 0.0) <= tightest.0;
+        let stops = self.brake_for(start, self.stop.distance - start.distance, self.patience()) <= tightest.0;
         if stops || (tightest.1.is_none() && end.v <= STANDSTILL) {
             Some(self.stop)
         } else {
