@@ -43,12 +43,7 @@ fn projection(c: &mut Criterion) {
     group.bench_function("point", |b| {
         let stations = (0..POINTS).map(|k| LENGTH * f64::from(k) / f64::from(POINTS));
         let stations: Vec<f64> = stations.collect();
-        b.iter(|| {
-            stations
-                .iter()
-                .map(|s| black_box(&line).point(*s).x)
-                .sum::<f64>()
-        });
+        b.iter(|| stations.iter().map(|s| black_box(&line).point(*s).x).sum::<f64>());
     });
     group.finish();
 }
