@@ -19,9 +19,9 @@ const LEAST_STRETCH: f64 = 0.1;
 /// Chords per block: near the square root of the usual number of chords, where the search is shortest.
 const BLOCK: usize = 32;
 
-/// Knots to each side of the place where a station lies if they are evenly spaced. Lanes begin and end between two
-/// steps of their sampling, so some are not.
-const REACH: usize = 8;
+/// How many knots a station may lie away from its place among evenly spaced ones before it is searched for. Lanes
+/// begin and end between two steps of their sampling, so a few are usual.
+const REACH: usize = 16;
 
 /// A point of the curve with its tangent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +63,7 @@ impl Circle {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Curve {
     knots: Vec<Knot>,
+    knots_per_metre: f64,
     /// Circles around stretches of [`BLOCK`] chords.
     blocks: Vec<Circle>,
 }
@@ -81,7 +82,12 @@ impl Curve {
         let last = knots.len().saturating_sub(1);
         let block = |start: usize| Circle::around(&knots[start..=(start + BLOCK).min(last)]);
         let blocks = (0..last).step_by(BLOCK).map(block).collect();
-        Self { knots, blocks }
+        let length = knots.last().map_or(0.0, |knot| knot.s);
+        Self {
+            knots_per_metre: knots.len() as f64 / length,
+            knots,
+            blocks,
+        }
     }
 
     /// The last knot at or before `s` that has a successor, and the fraction of the way to that one.
@@ -91,22 +97,25 @@ impl Curve {
         (above - 1, ((s - a) / (b - a)).clamp(0.0, 1.0))
     }
 
-    /// How many knots lie at or before `s`.
+    /// How many knots lie at or before `s`: counted from where `s` would lie among even ones.
     fn knots_until(&self, s: f64) -> usize {
-        let last = self.knots.len() - 1;
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "saturates, and is only a guess"
         )]
-        let guess = (s / self.knots[last].s * last as f64) as usize;
-        let (from, to) = (
-            guess.saturating_sub(REACH).min(last),
-            guess.saturating_add(REACH).min(last),
-        );
-        let is_near = self.knots[from].s <= s && s < self.knots[to].s;
-        let range = if is_near { from..to } else { 0..self.knots.len() };
-        range.start + self.knots[range].partition_point(|knot| knot.s <= s)
+        let guess = (s * self.knots_per_metre) as usize;
+        let mut count = guess.min(self.knots.len());
+        for _ in 0..REACH {
+            if count > 0 && self.knots[count - 1].s > s {
+                count -= 1;
+            } else if count < self.knots.len() && self.knots[count].s <= s {
+                count += 1;
+            } else {
+                return count;
+            }
+        }
+        self.knots.partition_point(|knot| knot.s <= s)
     }
 
     /// The curve between knots `k` and `k + 1` at fraction `t`: a cubic with the knots' tangents.
