@@ -1,14 +1,15 @@
 //! The way around static obstacles, chosen among all gaps between them.
 //!
 //! Obstacles beside a station leave gaps. A corridor is a chain of gaps, one per station, each touching the
-//! next; the sides on which it passes the obstacles follow from it. A forward dynamic program keeps the best
-//! chain into every gap: farthest first, then least lateral motion, with a surcharge on passing an obstacle on
-//! another side than in the tick before. So a road that can be passed is never taken for blocked, the answer
-//! does not depend on the order of the obstacles, and it does not flip without a reason.
+//! next, from the ego's own side of whatever it is beside; the sides on which it passes the obstacles follow
+//! from it. A forward dynamic program keeps the best chain into every gap: farthest first, then least lateral
+//! motion, with a surcharge on passing an obstacle on another side than in the tick before. So a road that can
+//! be passed is never taken for blocked, the answer does not depend on the order of the obstacles, and it does
+//! not flip without a reason.
 
 use super::bound::{BoundPoint, EdgeCause};
 use super::edges::{Limit, narrow};
-use super::input::Input;
+use super::input::{Input, ObstacleSl};
 use super::obstacles::{Passage, Widening, is_in_scope};
 use crate::frame::ObstacleId;
 use crate::road::Side;
@@ -34,11 +35,26 @@ const EGO_SLACK: f64 = 0.02;
 #[derive(Clone, Copy, Debug)]
 struct Forbidden {
     id: ObstacleId,
+    /// Near edge of the obstacle itself, m.
+    start_s: f64,
     first: usize,
     past: usize,
     l_min: f64,
     l_max: f64,
     remembered: Option<Side>,
+    /// The only side left to an ego that is beside it.
+    only: Option<Side>,
+}
+
+impl Forbidden {
+    /// On which side of it a gap lies whose right limit is `right`.
+    fn side_of(&self, right: f64) -> Side {
+        if self.l_max <= right {
+            Side::Left
+        } else {
+            Side::Right
+        }
+    }
 }
 
 /// A free interval between two forbidden ones (or the bound's edges) and the best chain that leads into it.
@@ -94,7 +110,12 @@ pub(super) fn limit(
         });
         if starts[i] == layers.len() {
             passage.is_blocked = true;
-            passage.blocked_by = closer(&active, &layers[before]);
+            passage.blocked_by = if input.config.quirks.arbitrary_blocker {
+                active.iter().map(|obstacle| obstacle.id).min()
+            } else {
+                closer(&active, &layers[before], point)
+            }
+            .filter(|id| *id != ObstacleId::ANONYMOUS);
             starts.pop();
             bound.truncate(i);
             break;
@@ -112,40 +133,15 @@ fn forbidden_intervals(
     remembered: &[(ObstacleId, Side)],
     widening: Widening,
 ) -> Vec<Forbidden> {
-    let config = input.config;
-    let half_width = input.vehicle.half_width();
+    let side_before = |id| remembered.iter().find(|(other, _)| *other == id);
     let mut all: Vec<Forbidden> = Vec::with_capacity(input.obstacles.len());
-    for obstacle in input
-        .obstacles
-        .iter()
-        .filter(|obstacle| is_in_scope(obstacle, input))
-    {
-        let first = bound.partition_point(|p| p.s <= obstacle.start_s - config.obstacle_lon_start_buffer);
-        let past = bound.partition_point(|p| p.s <= obstacle.end_s + config.obstacle_lon_end_buffer);
-        if first >= past {
-            continue;
+    for obstacle in input.obstacles {
+        if is_in_scope(obstacle, input)
+            && let Some(mut forbidden) = forbidden_by(obstacle, bound, input, widening)
+        {
+            forbidden.remembered = side_before(obstacle.id).map(|(_, side)| *side);
+            all.push(forbidden);
         }
-        // Beside the ego the buffer gives way rather than demand a jump.
-        let buffer = |room: f64| {
-            let kept = if first == 0 {
-                room - half_width - EGO_SLACK
-            } else {
-                widening.lateral
-            };
-            kept.clamp(widening.hard.min(widening.lateral), widening.lateral)
-        };
-        let (room_left, room_right) = (input.ego.l - obstacle.end_l, obstacle.start_l - input.ego.l);
-        all.push(Forbidden {
-            id: obstacle.id,
-            first,
-            past,
-            l_min: obstacle.start_l - half_width - buffer(room_right),
-            l_max: obstacle.end_l + half_width + buffer(room_left),
-            remembered: remembered
-                .iter()
-                .find(|(id, _)| *id == obstacle.id)
-                .map(|(_, side)| *side),
-        });
     }
     all.sort_by(|a, b| {
         a.first
@@ -154,6 +150,48 @@ fn forbidden_intervals(
             .then(a.id.cmp(&b.id))
     });
     all
+}
+
+/// What one obstacle forbids, if that is anything.
+fn forbidden_by(
+    obstacle: &ObstacleSl,
+    bound: &[BoundPoint],
+    input: &Input,
+    widening: Widening,
+) -> Option<Forbidden> {
+    let config = input.config;
+    let half_width = input.vehicle.half_width();
+    let first = bound.partition_point(|p| p.s <= obstacle.start_s - config.obstacle_lon_start_buffer);
+    let past = bound.partition_point(|p| p.s <= obstacle.end_s + config.obstacle_lon_end_buffer);
+    // Beside the ego the buffer gives way rather than demand a jump, and the side is chosen.
+    let is_beside = first == 0;
+    let buffer = |room: f64| {
+        let kept = if is_beside {
+            room - half_width - EGO_SLACK
+        } else {
+            widening.lateral
+        };
+        kept.max(widening.hard.min(widening.lateral))
+            .min(widening.lateral)
+    };
+    let (room_left, room_right) = (input.ego.l - obstacle.end_l, obstacle.start_l - input.ego.l);
+    let only = match (room_left >= 0.0, room_right >= 0.0) {
+        (true, _) => Some(Side::Left),
+        (_, true) => Some(Side::Right),
+        _ => None,
+    };
+    let l_min = obstacle.start_l - half_width - buffer(room_right);
+    let l_max = obstacle.end_l + half_width + buffer(room_left);
+    (first < past && l_min < l_max).then(|| Forbidden {
+        id: obstacle.id,
+        start_s: obstacle.start_s,
+        first,
+        past,
+        l_min,
+        l_max,
+        remembered: None,
+        only: only.filter(|_| is_beside),
+    })
 }
 
 /// Calls `found` for each free interval of a station, from right to left. `active` is sorted by `l_min`.
@@ -223,7 +261,10 @@ fn best_entry(
         }
     };
     if is_first {
-        return Some(entered(ego_l, 0.0, 0));
+        // The ego cannot jump across what it is beside.
+        let jumps =
+            |obstacle: &Forbidden| (obstacle.only).is_some_and(|only| only != obstacle.side_of(right.l));
+        return (!active.iter().any(jumps)).then(|| entered(ego_l, 0.0, 0));
     }
     let touching = |gap: &Gap| gap.right.l <= left.l && right.l <= gap.left.l;
     before
@@ -237,34 +278,34 @@ fn best_entry(
 /// Surcharges for the obstacles that begin at this station and would be passed on another side than before.
 fn flip_cost(right: Limit, left: Limit, active: &[Forbidden], i: usize) -> f64 {
     let flips = active.iter().filter(|obstacle| {
-        obstacle.first == i && {
-            let side = if obstacle.l_max <= right.l {
-                Side::Left
-            } else {
-                Side::Right
-            };
-            debug_assert!(obstacle.l_max <= right.l || obstacle.l_min >= left.l || right.l > left.l);
-            obstacle.remembered.is_some_and(|before| before != side)
-        }
+        debug_assert!(obstacle.l_max <= right.l || obstacle.l_min >= left.l);
+        let side = obstacle.side_of(right.l);
+        obstacle.first == i && obstacle.remembered.is_some_and(|before| before != side)
     });
     flips.count() as f64 * FLIP_COST
 }
 
-/// The obstacle that closed the corridor: the one begun last among those in the way of the last open gaps.
-fn closer(active: &[Forbidden], before: &[Gap]) -> Option<ObstacleId> {
-    let in_the_way = |obstacle: &&Forbidden| {
-        before.is_empty()
-            || before
-                .iter()
-                .any(|gap| obstacle.l_min < gap.left.l && gap.right.l < obstacle.l_max)
+/// The obstacle that closed the corridor, of those beside the first station that cannot be reached: one that
+/// stands in a gap by which the station before can be left. Those all begin here, because a gap is clear of what
+/// began before; the nearest in `s` is named, then the least id. Where nothing new stands in the way the road
+/// itself closes a gap: then it is the obstacle begun last among those that stand between the bound's edges.
+fn closer(active: &[Forbidden], before: &[Gap], point: &BoundPoint) -> Option<ObstacleId> {
+    let stands_in =
+        |obstacle: &Forbidden, right: f64, left: f64| obstacle.l_min < left && right < obstacle.l_max;
+    let in_a_gap = |obstacle: &&Forbidden| {
+        before
+            .iter()
+            .any(|gap| stands_in(obstacle, gap.right.l, gap.left.l))
     };
-    let latest = |a: &&Forbidden, b: &&Forbidden| a.first.cmp(&b.first).then(b.id.cmp(&a.id));
+    let in_the_bound = |obstacle: &&Forbidden| stands_in(obstacle, point.l_min, point.l_max);
+    let nearest = |a: &&Forbidden, b: &&Forbidden| a.start_s.total_cmp(&b.start_s).then(a.id.cmp(&b.id));
+    let latest = |a: &&Forbidden, b: &&Forbidden| a.first.cmp(&b.first).then(nearest(b, a));
     active
         .iter()
-        .filter(in_the_way)
-        .max_by(latest)
-        .or_else(|| active.iter().max_by(latest))
-        .map(|o| o.id)
+        .filter(in_a_gap)
+        .min_by(nearest)
+        .or_else(|| active.iter().filter(in_the_bound).max_by(latest))
+        .map(|obstacle| obstacle.id)
 }
 
 /// Narrows the bound to the best chain, walking back from its last station.
@@ -287,12 +328,7 @@ fn carve(bound: &mut [BoundPoint], layers: &[Gap], starts: &[usize]) {
 fn sides(bound: &[BoundPoint], forbidden: &[Forbidden]) -> Vec<(ObstacleId, Side)> {
     let side = |obstacle: &Forbidden| {
         let point = bound.get(obstacle.first)?;
-        let side = if obstacle.l_max <= point.l_min {
-            Side::Left
-        } else {
-            Side::Right
-        };
-        Some((obstacle.id, side))
+        Some((obstacle.id, obstacle.side_of(point.l_min)))
     };
     forbidden.iter().filter_map(side).collect()
 }

@@ -6,6 +6,11 @@
 
 mod causes;
 mod examples;
+mod gaps_against_all_sides;
+mod metamorphic;
+mod pull_over;
 mod quirks_around_obstacles;
 mod quirks_of_the_road;
+mod random;
 mod setup;
+mod wild;

@@ -2,7 +2,7 @@
 
 use super::setup::{OWN, Setup, assert_limits, at};
 use crate::frame::ObstacleId;
-use crate::reference_line::{LineQuery, SlPoint};
+use crate::reference_line::LineQuery;
 use crate::road::Side;
 use crate::tasks::path_bounds::{Label, PathBoundsError};
 
@@ -31,20 +31,31 @@ fn arbitrary_blocker_of_the_greedy_sweep() {
     assert_eq!(on.bound(OWN).blocked_by, Some(ObstacleId(1)));
 }
 
-/// Issues 15531 and 14055: two cones near the middle get opposite sides, and a road with room on the left is
+/// Issues 15531 and 14055: two obstacles get opposite sides, and a road that is free on the right of both is
 /// taken for blocked.
 #[test]
 fn greedy_sides() {
     let scene = Setup::fixed()
         .with(|setup| setup.road.sections[0].lane = Some((3.5, 3.5)))
-        .parked(1, (70.0, 70.5), (-0.5, 0.3))
-        .parked(2, (71.0, 71.5), (0.4, 0.6));
+        .parked(1, (70.0, 70.5), (-0.3, 0.1))
+        .parked(2, (71.0, 71.5), (2.2, 2.6));
     let (mut off, mut on) = scene.without_and_with(|quirks| quirks.greedy_sides = true);
     let bound = off.bound(OWN);
     assert_eq!((bound.blocked_by, bound.end_s()), (None, 149.5));
-    assert_limits(&bound, 68.5, 72.5, (-2.445, -1.955));
+    assert_limits(&bound, 67.5, 72.5, (-2.445, -0.3 - 0.4 - 1.055));
     let bound = on.bound(OWN);
     assert_eq!((bound.blocked_by, bound.end_s()), (Some(ObstacleId(2)), 68.0));
+}
+
+/// The side is that of the obstacle's middle, at first seen from the ego, with or without room there.
+#[test]
+fn greedy_sides_without_room() {
+    let scene = Setup::fixed()
+        .with(|setup| setup.road.sections[0].lane = Some((1.75, 5.0)))
+        .parked(1, (53.2, 54.0), (-0.5, 0.3));
+    let (mut off, mut on) = scene.without_and_with(|quirks| quirks.greedy_sides = true);
+    assert_limits(&off.bound(OWN), 50.5, 56.0, (-3.945, -1.955));
+    assert_eq!(on.bound(OWN).end_s(), 50.0);
 }
 
 /// Behind the rear axle, beside the rear bumper.
@@ -85,7 +96,7 @@ fn padding_ends_with_the_horizon() {
 #[test]
 fn silent_blocker() {
     let blocked = |setup: Setup| setup.parked(1, (100.0, 104.0), (-3.0, 3.0));
-    let pulling_over = blocked(Setup::fixed()).pulling_over(Some(95.0));
+    let pulling_over = blocked(Setup::fixed()).pulling_over(Some(90.0));
     let changing = blocked(Setup::fixed()).with(|setup| {
         setup.is_change_lane = true;
         setup.memory.change_lane.is_clear = true;
@@ -154,8 +165,9 @@ fn unsigned_road_edge() {
         .with(|setup| {
             setup.road.sections[0].lane = Some((5.0, 5.0));
             setup.road.sections[0].road = Some((5.0, 3.0));
+            setup.ego.l = 2.5;
         })
-        .parked(1, (60.0, 140.0), (-3.0, 0.5))
+        .parked(1, (45.0, 140.0), (-3.0, 0.5))
         .pulling_over(Some(125.0));
     let (mut off, mut on) = scene.without_and_with(|quirks| quirks.unsigned_road_edge = true);
     let refused = off.decide().unwrap();
@@ -195,14 +207,12 @@ fn both_sweeps_tell_the_sides() {
 #[test]
 fn sides_are_kept_from_tick_to_tick() {
     let scene = Setup::fixed()
-        .with(|setup| setup.road.sections[0].lane = Some((4.0, 4.0)))
+        .with(|setup| setup.road.sections[0].lane = Some((6.0, 6.0)))
         .parked(1, (80.0, 82.0), (-0.3, 0.2));
     let right_of_it = at(&scene.clone().bound(OWN), 80.0);
     assert!(right_of_it.0 > 0.0, "left is nearer: {right_of_it:?}");
     let mut latched = scene.with(|setup| setup.memory.passed = vec![(ObstacleId(1), Side::Right)]);
     assert!(at(&latched.bound(OWN), 80.0).1 < 0.0, "right was chosen before");
-    let mut far = latched.with(|setup| setup.obstacles[0].start_l = -1.2);
+    let mut far = latched.with(|setup| setup.obstacles[0].start_l = -2.3);
     assert!(at(&far.bound(OWN), 80.0).0 > 0.0, "now left is much nearer");
-    let unused = SlPoint { s: 0.0, l: 0.0 };
-    assert_eq!(far.road.to_cartesian(unused), far.road.origin.position());
 }

@@ -32,11 +32,11 @@ fn pull_over_overhang_reopens_the_road() {
 #[test]
 fn junction_at_anchor_only() {
     let junction = Section {
-        from: 116.5,
+        from: 117.0,
         junction: true,
         ..PLAIN
     };
-    let behind = Section { from: 118.0, ..PLAIN };
+    let behind = Section { from: 118.6, ..PLAIN };
     let scene = Setup::fixed()
         .with(|setup| setup.road.sections.extend([junction, behind]))
         .pulling_over(Some(120.0));
@@ -47,14 +47,14 @@ fn junction_at_anchor_only() {
         setup.road.to_frenet(place.position).s
     };
     let (clear, in_junction) = (place_of(&mut off), place_of(&mut on));
-    assert!((116.5..118.0).contains(&in_junction), "{in_junction}");
-    assert!(clear < 115.5 && clear > 110.0, "{clear}");
+    assert!((117.0..118.6).contains(&in_junction), "{in_junction}");
+    assert!(clear < 116.0 && clear > 112.0, "{clear}");
 }
 
 #[test]
 fn unchecked_road_width() {
     let hole = Section {
-        from: 60.0,
+        from: 52.0,
         road: None,
         ..PLAIN
     };
