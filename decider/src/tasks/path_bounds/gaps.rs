@@ -174,14 +174,16 @@ fn forbidden_by(
         kept.max(widening.hard.min(widening.lateral))
             .min(widening.lateral)
     };
-    let (room_left, room_right) = (input.ego.l - obstacle.end_l, obstacle.start_l - input.ego.l);
+    let right = obstacle.start_l.min(obstacle.end_l);
+    let left = obstacle.start_l.max(obstacle.end_l);
+    let (room_left, room_right) = (input.ego.l - left, right - input.ego.l);
     let only = match (room_left >= 0.0, room_right >= 0.0) {
         (true, _) => Some(Side::Left),
         (_, true) => Some(Side::Right),
         _ => None,
     };
-    let l_min = obstacle.start_l - half_width - buffer(room_right);
-    let l_max = obstacle.end_l + half_width + buffer(room_left);
+    let l_min = right - half_width - buffer(room_right);
+    let l_max = left + half_width + buffer(room_left);
     (first < past && l_min < l_max).then(|| Forbidden {
         id: obstacle.id,
         start_s: obstacle.start_s,

@@ -43,10 +43,11 @@ pub(super) fn limit(
     }
 }
 
-/// Whether an obstacle concerns the static bounds at all. One whose box is not ordered, which includes edges that
-/// are no numbers, cannot be placed and does not.
+/// Whether an obstacle concerns the static bounds at all. One whose box has an edge that is no number cannot be
+/// placed and does not.
 pub(super) fn is_in_scope(obstacle: &ObstacleSl, input: &Input) -> bool {
-    let is_placed = obstacle.start_s <= obstacle.end_s && obstacle.start_l <= obstacle.end_l;
+    let edges = [obstacle.start_s, obstacle.end_s, obstacle.start_l, obstacle.end_l];
+    let is_placed = edges.iter().all(|edge| !edge.is_nan());
     let stands = obstacle.is_static && obstacle.speed <= input.config.static_obstacle_speed_threshold;
     let last = if input.config.quirks.forgets_beside_overhang {
         obstacle.end_s

@@ -133,7 +133,8 @@ fn window_end(
     window: Window,
 ) -> Option<usize> {
     // A window of no length still has a first station.
-    if !fits(&bound[anchor], &stations[anchor], input, window) {
+    let unchecked = window.length <= 0.0 && input.config.quirks.unchecked_short_window;
+    if !unchecked && !fits(&bound[anchor], &stations[anchor], input, window) {
         return None;
     }
     let mut j = anchor;

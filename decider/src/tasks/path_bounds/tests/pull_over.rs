@@ -193,19 +193,6 @@ fn a_place_is_kept_until_it_is_taken() {
     }
 }
 
-/// A car shorter than the obstacles' buffers still needs a kerb and room where it stands.
-#[test]
-fn a_short_car_is_checked_too() {
-    let mut setup = Setup::fixed().pulling_over(Some(120.0)).with(|setup| {
-        setup.vehicle.length = 2.7;
-        setup.vehicle.front_edge_to_center = 2.2;
-        setup.vehicle.back_edge_to_center = 0.5;
-        setup.obstacles = vec![parked(1, (52.5, 150.0), (-3.0, -1.8))];
-    });
-    let answer = setup.decide().unwrap();
-    assert_eq!(answer.refusal, Some(PullOverRefusal::NoPlace));
-}
-
 /// Left of its lane's line the ego may come back over time; the bound holds it and goes no farther left.
 #[test]
 fn an_ego_over_the_line_may_come_back() {

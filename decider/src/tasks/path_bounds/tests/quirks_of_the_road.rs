@@ -71,6 +71,25 @@ fn unchecked_road_width() {
     assert!(on.memory.pull_over.place.is_some());
 }
 
+/// A car shorter than the obstacles' buffers still needs a kerb and room where it stands.
+#[test]
+fn unchecked_short_window() {
+    let scene = Setup::fixed()
+        .parked(1, (52.5, 150.0), (-3.0, -1.8))
+        .pulling_over(Some(120.0))
+        .with(|setup| {
+            setup.vehicle.length = 2.7;
+            setup.vehicle.front_edge_to_center = 2.2;
+            setup.vehicle.back_edge_to_center = 0.5;
+        });
+    let (mut off, mut on) = scene.without_and_with(|quirks| quirks.unchecked_short_window = true);
+    assert_eq!(off.decide().unwrap().refusal, Some(PullOverRefusal::NoPlace));
+    let bound = on.bound(Label::PullOver);
+    assert_limits(&bound, 50.0, 120.0, (-0.345, 0.695));
+    let kerb = on.road.to_frenet(on.memory.pull_over.place.unwrap().position).l - 1.055 + 3.0;
+    assert!(kerb > 1.5, "the original stands {kerb:.2} m from the kerb");
+}
+
 #[test]
 fn crosses_double_yellow() {
     let scene = Setup::fixed().with(|setup| {
