@@ -104,7 +104,10 @@ mod tests {
             [(0, dotted), (1, solid)]
         );
         assert_eq!(
-            places(&[mark(0.0, dotted), mark(2.5, solid), mark(3.0, dotted)], &stations),
+            places(
+                &[mark(0.0, dotted), mark(2.5, solid), mark(3.0, dotted)],
+                &stations
+            ),
             [(0, dotted), (2, dotted)],
             "the later of two at one section"
         );
