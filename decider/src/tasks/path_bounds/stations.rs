@@ -13,6 +13,10 @@ const LONGEST_HORIZON: f64 = 2000.0;
 /// Distance between stations, m (the original's `kPathBoundsDeciderResolution`).
 pub(super) const RESOLUTION: f64 = 0.5;
 
+/// Stations farther than this from the line's start are not sampled, m: no road is that long, and near 2^52 m half
+/// a metre is lost in rounding.
+const FARTHEST: f64 = 1e9;
+
 /// What the line knows at one station.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Station {
@@ -30,8 +34,8 @@ pub struct Station {
     pub neighbours: [Option<f64>; 4],
 }
 
-/// Samples the line from the ego to the end of the horizon. Empty when the ego is at or past the line's end, or so
-/// far before its start that half a metre is lost in rounding.
+/// Samples the line from the ego to the end of the horizon. Empty when the ego is at or past the line's end, or absurdly
+/// far before its start.
 pub(super) fn sample<L: LineQuery + ?Sized>(line: &L, input: &Input) -> Vec<Station> {
     let cruise = if input.cruise_speed > 0.0 {
         input.cruise_speed
@@ -41,8 +45,7 @@ pub(super) fn sample<L: LineQuery + ?Sized>(line: &L, input: &Input) -> Vec<Stat
     let reach = HORIZON
         .max(cruise * input.config.trajectory_time_length)
         .min(LONGEST_HORIZON);
-    let advances = input.ego.s + RESOLUTION > input.ego.s;
-    if !advances {
+    if input.ego.s.abs() > FARTHEST {
         return Vec::new();
     }
     let end = (input.ego.s + reach).min(line.length());
