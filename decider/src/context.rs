@@ -3,7 +3,7 @@
 //! A decision is a pure function of the frame and this; replaying the frames of a trace from the first one
 //! rebuilds it.
 
-use crate::decision::{PathPoint, TrajectoryPoint};
+use crate::decision::{PathPoint, Stop, TrajectoryPoint};
 use crate::tasks::lane_borrow::BorrowState;
 use crate::tasks::lane_change::LaneChangeState;
 use crate::tasks::path_bounds::{Label, Memory};
@@ -17,6 +17,8 @@ pub struct Context {
     pub borrow: BorrowState,
     /// Of the lane-change decider.
     pub lane_change: LaneChangeState,
+    /// What the last tick slowed down for.
+    pub stop: Option<Stop>,
     /// The path of the last tick.
     pub path: Option<LastPath>,
     /// The trajectory of the last tick and the time it starts at.

@@ -1,5 +1,6 @@
 //! The lane-follow planner: one tick from frame to decision.
 
+use super::braking;
 use super::choice::{self, Choice};
 use crate::config::Config;
 use crate::context::{Context, LastPath, LastTrajectory};
@@ -54,7 +55,12 @@ impl Planner {
                 return Some(target);
             }
         }
-        (!frame.lines.is_empty()).then(|| scene(0))
+        let mut own = (!frame.lines.is_empty()).then(|| scene(0))?;
+        if lane_change::target_line(frame).is_some() {
+            // Who keeps the speed of the traffic beside him never meets another gap.
+            own.cruise_speed *= self.config.speed.gap_seeking_share;
+        }
+        Some(own)
     }
 }
 
@@ -85,6 +91,7 @@ fn decide_along(scene: &Scene, context: &mut Context) -> Decision {
     let table = LineTable::new(scene.line, scene.ego.s, end_s);
     let choice = choice::choose(scene, &table, &bounds, context);
     lane_borrow::observe(&mut context.borrow, choice.own_lane_is_blocked);
+    lane_borrow::observe_traffic(&mut context.borrow, choice.is_free_to_borrow);
     drive(scene, context, bounds, choice)
 }
 
@@ -130,7 +137,13 @@ fn drive(scene: &Scene, context: &mut Context, bounds: PathBounds, choice: Choic
         label,
         points: path.points.clone(),
     });
-    let planned = speed::plan(scene, &path, pull_over_stop(scene, context, label, &path));
+    let planned = speed::plan(
+        scene,
+        &path,
+        pull_over_stop(scene, context, label, &path),
+        context.stop,
+    );
+    context.stop = planned.stop;
     let place = context
         .bounds
         .pull_over
@@ -189,7 +202,7 @@ fn emergency_stop(frame: &Frame, start: &StartPoint, context: &Context, vehicle:
         candidates: Vec::new(),
         chosen: None,
         path: Vec::new(),
-        trajectory: choice::braking_trajectory(start, last, -vehicle.max_deceleration),
+        trajectory: braking::braking_trajectory(start, last, -vehicle.max_deceleration),
         stop: None,
         outcome: if last.is_some() {
             Outcome::LastPath

@@ -37,17 +37,21 @@ pub(crate) fn assessment(trace: &Trace, assessment: Assessment) -> String {
     }
 }
 
-/// Why the car does not simply drive on.
+/// Why the car does not simply drive on, and where it comes to rest.
 pub(crate) fn stop(trace: &Trace, stop: Stop) -> String {
-    let what = match stop.cause {
+    format!("in {:.1} m: {}", stop.distance, stop_cause(trace, stop.cause))
+}
+
+/// What the car stops, follows or yields for.
+pub(crate) fn stop_cause(trace: &Trace, cause: StopCause) -> String {
+    match cause {
         StopCause::Blocked(id) => format!("blocked by `{}`", trace.obstacle(id)),
-        StopCause::Follow(id) => format!("follow `{}`", trace.obstacle(id)),
-        StopCause::Yield(id) => format!("yield to `{}`", trace.obstacle(id)),
+        StopCause::Follow(id) => format!("follows `{}`", trace.obstacle(id)),
+        StopCause::Yield(id) => format!("yields to `{}`", trace.obstacle(id)),
         StopCause::PullOver => "place to pull over".to_owned(),
         StopCause::Destination => "end of the route".to_owned(),
         StopCause::PathEnd => "end of the path".to_owned(),
-    };
-    format!("{what}, {:.1} m ahead", stop.distance)
+    }
 }
 
 /// What the ego is asked to do.

@@ -9,6 +9,12 @@ use crate::tasks::scene::Scene;
 /// car that has strayed over its bound must be allowed back.
 const RETURN_LENGTH: f64 = 12.0;
 
+/// Stations without which there is no path to speak of.
+const LEAST_STATIONS: usize = 4;
+
+/// How far a path leads beyond the place where the car stops, m.
+const BEYOND_STOP: f64 = 1.0;
+
 /// How far before its stop a car has to be in place, m: it stops straight.
 const STRAIGHTEN: f64 = 2.0;
 
@@ -59,9 +65,14 @@ impl Corridor {
         )]
         let stride = (STEP / bound.delta_s).round() as usize;
         let count = (bound.points.len().saturating_sub(1) / stride + 1).min(table.rows.len());
-        if count < 4 {
+        if count < LEAST_STATIONS {
             return None;
         }
+        // What lies beyond a stop does not concern the way there.
+        let needed = goal.stop_s.map_or(count, |s| {
+            table.rows.partition_point(|row| row.s < s + BEYOND_STOP)
+        });
+        let count = count.min(needed.max(LEAST_STATIONS));
         let mut limits: Vec<(f64, f64)> = (0..count)
             .map(|k| limits_near(&bound.points, k, stride))
             .collect();

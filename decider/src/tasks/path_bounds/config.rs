@@ -112,12 +112,16 @@ pub struct Quirks {
     pub pull_over_overhang: bool,
     /// Not in the list: the road's edge is looked up at the rear axle only, not under the whole body.
     pub road_edge_at_axle: bool,
+    /// Not in the list: a place to pull over may be one that the car cannot turn in to.
+    pub unreachable_place: bool,
     /// 16: the distance to the road edge is taken from the size of `l`, whatever its sign.
     pub unsigned_road_edge: bool,
     /// 17: only the first station of a place to pull over is checked for junctions.
     pub junction_at_anchor_only: bool,
     /// 18: a missing road width counts as near enough to the edge.
     pub unchecked_road_width: bool,
+    /// Not in that list: a car so short that its window has no length may pull over anywhere, unchecked.
+    pub unchecked_short_window: bool,
     /// 20: a double yellow line may be crossed.
     pub crosses_double_yellow: bool,
     /// 22: a lane is borrowed where there is none.
@@ -144,9 +148,11 @@ impl Quirks {
             pull_over_stands_alone: true,
             pull_over_overhang: true,
             road_edge_at_axle: true,
+            unreachable_place: true,
             unsigned_road_edge: true,
             junction_at_anchor_only: true,
             unchecked_road_width: true,
+            unchecked_short_window: true,
             crosses_double_yellow: true,
             borrows_phantom_lane: true,
             zone_without_lane: true,
