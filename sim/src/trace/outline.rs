@@ -104,7 +104,10 @@ mod tests {
             [(0, dotted), (1, solid)]
         );
         assert_eq!(
-            places(&[mark(0.0, dotted), mark(2.5, solid), mark(3.0, dotted)], &stations),
+            places(
+                &[mark(0.0, dotted), mark(2.5, solid), mark(3.0, dotted)],
+                &stations
+            ),
             [(0, dotted), (2, dotted)],
             "the later of two at one section"
         );
@@ -120,6 +123,7 @@ mod tests {
     fn what_is_out_of_sight_is_left_out() {
         let mut lanes = synthetic::lanes();
         let mut far = lanes[0].clone();
+        far.name = "far".to_owned();
         for point in &mut far.points {
             point.y += 400.0;
         }

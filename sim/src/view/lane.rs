@@ -32,7 +32,10 @@ pub(super) struct MarkData {
 impl LaneData {
     pub(super) fn new(lane: &LaneOutline, origin: Vec2) -> Self {
         // What one edge needs stays on both, so that the sections stay sections.
-        let (on_left, on_right) = (thin::keep(&lane.left, |_| false), thin::keep(&lane.right, |_| false));
+        let (on_left, on_right) = (
+            thin::keep(&lane.left, |_| false),
+            thin::keep(&lane.right, |_| false),
+        );
         let kept = |edge: &[Vec2]| {
             let points = edge.iter().enumerate();
             let needed = |k: usize| on_left.get(k) == Some(&true) || on_right.get(k) == Some(&true);
