@@ -3,7 +3,7 @@
 use crate::closed_loop::{ClosedLoop, NoSink, Sink};
 use crate::route::Route;
 use crate::settings::Settings;
-use crate::trace::{FORMAT, Header, TickRecord, TraceError, TraceWriter, outline};
+use crate::trace::{FORMAT, Header, TickRecord, Trace, TraceError, TraceWriter, outline};
 use crate::verdict::Verdict;
 use corridor_scenarios::{Family, Scenario};
 use std::path::Path;
@@ -45,6 +45,32 @@ pub fn run_traced(
     let verdict = run_into(scenario, settings, &mut sink)?;
     sink.0.finish(&verdict)?;
     Ok(verdict)
+}
+
+/// Runs a scenario and keeps its trace in memory, as it would be read back but for the writer's rounding.
+pub fn run_recorded(
+    family: &Family,
+    scenario: &Scenario,
+    overrides: &[String],
+    settings: &Settings,
+) -> Trace {
+    let mut ticks = Recorder(Vec::new());
+    let verdict = run_into(scenario, settings, &mut ticks).expect("keeping in memory cannot fail");
+    Trace {
+        header: header(family, scenario, overrides, settings),
+        ticks: ticks.0,
+        verdict: Some(verdict),
+        truncated: false,
+    }
+}
+
+struct Recorder(Vec<TickRecord>);
+
+impl Sink for Recorder {
+    fn tick(&mut self, tick: &TickRecord) -> Result<(), TraceError> {
+        self.0.push(tick.clone());
+        Ok(())
+    }
 }
 
 struct TraceSink(TraceWriter);

@@ -1,5 +1,6 @@
 //! A reference line along the centre lines of a sequence of lanes.
 
+use super::curve::Curve;
 use super::query::{LineQuery, SlPoint};
 use crate::geometry::{Vec2, angle, cross};
 use crate::road::{BoundaryType, LaneId, LanePoint, Neighbour, RoadMap, Side};
@@ -9,12 +10,6 @@ use serde::{Deserialize, Serialize};
 /// Largest gap between the end of a lane and the start of its successor, m. Real maps join within
 /// centimetres; half a metre is what the format notes ask importers to survive.
 const JOIN_TOLERANCE: f64 = 0.5;
-
-/// Newton steps to a foot: three reach rounding, the rest is for steps over a sample.
-const FOOT_STEPS: usize = 5;
-
-/// Least factor `1 − κ l` that is divided by: nearer to the centre of curvature there is no single foot.
-const LEAST_STRETCH: f64 = 0.1;
 
 /// Samples closer than this are one, m.
 const SAME_POINT: f64 = 1e-3;
@@ -84,26 +79,13 @@ pub enum LineError {
 #[serde(from = "Vec<LineSample>", into = "Vec<LineSample>")]
 pub struct ReferenceLine {
     samples: Vec<LineSample>,
-    /// Circles around stretches of [`BLOCK`] chords, to search few of them for a projection.
-    blocks: Vec<Circle>,
-}
-
-/// Chords per block: near the square root of the usual number of chords, where the search is shortest.
-const BLOCK: usize = 32;
-
-/// A circle that holds a stretch of the line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Circle {
-    center: Vec2,
-    radius: f64,
+    curve: Curve,
 }
 
 impl From<Vec<LineSample>> for ReferenceLine {
     fn from(samples: Vec<LineSample>) -> Self {
-        let last = samples.len().saturating_sub(1);
-        let block = |start: usize| enclosing_circle(&samples[start..=(start + BLOCK).min(last)]);
-        let blocks = (0..last).step_by(BLOCK).map(block).collect();
-        Self { samples, blocks }
+        let curve = Curve::through(&samples);
+        Self { samples, curve }
     }
 }
 
@@ -111,20 +93,6 @@ impl From<ReferenceLine> for Vec<LineSample> {
     fn from(line: ReferenceLine) -> Self {
         line.samples
     }
-}
-
-fn enclosing_circle(samples: &[LineSample]) -> Circle {
-    let position = |sample: &LineSample| Vec2::new(sample.point.x, sample.point.y);
-    let (low, high) = samples.iter().map(position).fold(
-        (Vec2::repeat(f64::MAX), Vec2::repeat(-f64::MAX)),
-        |(low, high), p| (low.inf(&p), high.sup(&p)),
-    );
-    let center = (low + high) / 2.0;
-    let radius = samples
-        .iter()
-        .map(|s| (position(s) - center).norm())
-        .fold(0.0, f64::max);
-    Circle { center, radius }
 }
 
 impl ReferenceLine {
@@ -162,19 +130,9 @@ impl ReferenceLine {
         &self.samples
     }
 
-    /// The last cross-section at or before `s` and the fraction of the way to the next one.
-    fn locate(&self, s: f64) -> (usize, f64) {
-        let above = self
-            .samples
-            .partition_point(|p| p.s <= s)
-            .clamp(1, self.samples.len() - 1);
-        let (a, b) = (self.samples[above - 1].s, self.samples[above].s);
-        (above - 1, ((s - a) / (b - a)).clamp(0.0, 1.0))
-    }
-
     /// The cross-section that rules at `s`.
     pub fn sample_at(&self, s: f64) -> &LineSample {
-        let (k, t) = self.locate(s);
+        let (k, t) = self.curve.locate(s);
         &self.samples[if t >= 1.0 { k + 1 } else { k }]
     }
 
@@ -202,70 +160,9 @@ impl ReferenceLine {
         if !self.inside(s) {
             return None;
         }
-        let (k, t) = self.locate(s);
+        let (k, t) = self.curve.locate(s);
         let (a, b) = (widths(&self.samples[k]), widths(&self.samples[k + 1]));
         Some((a.0 + (b.0 - a.0) * t, a.1 + (b.1 - a.1) * t))
-    }
-
-    /// Index of the chord nearest to `point`; the first of equals.
-    fn nearest_chord(&self, point: Vec2) -> usize {
-        let mut best = (f64::MAX, 0);
-        for (block, circle) in self.blocks.iter().enumerate() {
-            let nearest = (point - circle.center).norm() - circle.radius;
-            if nearest > 0.0 && nearest * nearest > best.0 {
-                continue;
-            }
-            let first = block * BLOCK;
-            let last = (first + BLOCK).min(self.samples.len() - 1);
-            for (k, pair) in (first..last).zip(self.samples[first..=last].windows(2)) {
-                let distance = chord_distance_squared(&pair[0].point, &pair[1].point, point);
-                if distance < best.0 {
-                    best = (distance, k);
-                }
-            }
-        }
-        best.1
-    }
-
-    /// Foot of the perpendicular from `point` near chord `k`: the chord it lies on and the fraction along it,
-    /// beyond `[0, 1]` only at the line's ends. Newton on (point − curve) · tangent = 0; the start is within
-    /// a chord of the foot and three steps reach rounding.
-    fn foot(&self, mut k: usize, point: Vec2) -> (usize, f64) {
-        let last = self.samples.len() - 2;
-        let mut t: f64 = 0.5;
-        for _ in 0..FOOT_STEPS {
-            let length = self.samples[k + 1].s - self.samples[k].s;
-            let at = self.interpolate(k, t.clamp(0.0, 1.0));
-            let (sin, cos) = angle::sin_cos(at.theta);
-            let d = Vec2::new(point.x - at.x, point.y - at.y);
-            let stretch = 1.0 - at.kappa * (cos * d.y - sin * d.x);
-            t = t.clamp(0.0, 1.0) + (cos * d.x + sin * d.y) / (length * stretch.max(LEAST_STRETCH));
-            if t > 1.0 && k < last {
-                (k, t) = (k + 1, 0.0);
-            } else if t < 0.0 && k > 0 {
-                (k, t) = (k - 1, 1.0);
-            } else if !(0.0..=1.0).contains(&t) {
-                break;
-            }
-        }
-        (k, t)
-    }
-
-    /// The curve between samples `k` and `k + 1` at fraction `t`: a cubic with the samples' tangents.
-    fn interpolate(&self, k: usize, t: f64) -> LinePoint {
-        let (a, b) = (&self.samples[k], &self.samples[k + 1]);
-        let length = b.s - a.s;
-        let (h00, h10) = ((1.0 + 2.0 * t) * (1.0 - t) * (1.0 - t), t * (1.0 - t) * (1.0 - t));
-        let (h01, h11) = (t * t * (3.0 - 2.0 * t), t * t * (t - 1.0));
-        let (sin_a, cos_a) = angle::sin_cos(a.point.theta);
-        let (sin_b, cos_b) = angle::sin_cos(b.point.theta);
-        let turn = angle::difference(b.point.theta, a.point.theta);
-        LinePoint {
-            x: h00 * a.point.x + h01 * b.point.x + length * (h10 * cos_a + h11 * cos_b),
-            y: h00 * a.point.y + h01 * b.point.y + length * (h10 * sin_a + h11 * sin_b),
-            theta: angle::wrap(a.point.theta + turn * t),
-            kappa: a.point.kappa + (b.point.kappa - a.point.kappa) * t,
-        }
     }
 }
 
@@ -283,7 +180,7 @@ impl LineQuery for ReferenceLine {
     }
 
     fn offset_to_map(&self, s: f64) -> Option<f64> {
-        let (k, t) = self.locate(s);
+        let (k, t) = self.curve.locate(s);
         let (a, b) = (self.samples[k].offset, self.samples[k + 1].offset);
         Some(a + (b - a) * t)
     }
@@ -312,8 +209,8 @@ impl LineQuery for ReferenceLine {
     }
 
     fn point(&self, s: f64) -> LinePoint {
-        let (k, t) = self.locate(s);
-        self.interpolate(k, t)
+        let (k, t) = self.curve.locate(s);
+        self.curve.between(k, t)
     }
 
     fn sample(&self, from: f64, step: f64, end: f64, stations: &mut Vec<Station>) {
@@ -326,7 +223,7 @@ impl LineQuery for ReferenceLine {
             return;
         }
         // Walk along instead of searching for every station anew.
-        let (mut k, _) = self.locate(from);
+        let (mut k, _) = self.curve.locate(from);
         let mut s = from;
         while s < end {
             while k + 2 < self.samples.len() && self.samples[k + 1].s <= s {
@@ -338,13 +235,12 @@ impl LineQuery for ReferenceLine {
     }
 
     fn to_frenet(&self, point: Vec2) -> SlPoint {
-        let chord = self.nearest_chord(point);
-        let (k, t) = self.foot(chord, point);
+        let (k, t) = self.curve.foot(point);
         if (k == 0 && t < 0.0) || (k + 2 == self.samples.len() && t > 1.0) {
             return beyond_the_end(&self.samples[if t < 0.0 { 0 } else { k + 1 }], point);
         }
         let t = t.clamp(0.0, 1.0);
-        let at = self.interpolate(k, t);
+        let at = self.curve.between(k, t);
         let (sin, cos) = angle::sin_cos(at.theta);
         let d = Vec2::new(point.x - at.x, point.y - at.y);
         let (a, b) = (&self.samples[k], &self.samples[k + 1]);
@@ -363,13 +259,6 @@ fn beyond_the_end(end: &LineSample, point: Vec2) -> SlPoint {
         s: end.s + cos * d.x + sin * d.y,
         l: cos * d.y - sin * d.x,
     }
-}
-
-fn chord_distance_squared(a: &LinePoint, b: &LinePoint, point: Vec2) -> f64 {
-    let chord = Vec2::new(b.x - a.x, b.y - a.y);
-    let from = Vec2::new(point.x - a.x, point.y - a.y);
-    let t = (from.dot(&chord) / chord.norm_squared()).clamp(0.0, 1.0);
-    (from - chord * t).norm_squared()
 }
 
 /// Adds a cross-section behind the last one, at the station that its distance gives.
@@ -431,20 +320,6 @@ mod tests {
                     "{s} {l}: {there:?}"
                 );
             }
-        }
-    }
-
-    #[test]
-    fn searching_by_blocks_finds_the_nearest_of_all_chords() {
-        let line = testing::s_curve();
-        for k in 0..500 {
-            let angle = f64::from(k) * 0.7;
-            let (sin, cos) = angle::sin_cos(angle);
-            let point = Vec2::new(60.0 + cos * f64::from(k), sin * f64::from(k) * 0.4);
-            let distance =
-                |k: usize| chord_distance_squared(&line.samples[k].point, &line.samples[k + 1].point, point);
-            let nearest = (0..line.samples.len() - 1).map(distance).fold(f64::MAX, f64::min);
-            assert!(distance(line.nearest_chord(point)) <= nearest);
         }
     }
 

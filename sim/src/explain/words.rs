@@ -26,6 +26,7 @@ pub(crate) fn assessment(trace: &Trace, assessment: Assessment) -> String {
         Assessment::Chosen => "chosen".to_owned(),
         Assessment::Drivable { reach } => format!("drivable for {reach:.1} m, another was preferred"),
         Assessment::NoPath(Rejection::LeavesBound) => "no path: it leaves the bound".to_owned(),
+        Assessment::NoPath(Rejection::LeavesRoad) => "no path: the body leaves the road".to_owned(),
         Assessment::NoPath(Rejection::Curvature) => "no path: it bends more than the steering can".to_owned(),
         Assessment::NoPath(Rejection::Touches(id)) => {
             format!("no path: it touches `{}`", trace.obstacle(id))

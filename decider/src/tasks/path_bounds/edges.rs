@@ -10,16 +10,20 @@ pub(super) struct Limit {
     pub cause: EdgeCause,
 }
 
-/// A bound without limits at every station.
-pub(super) fn unbounded(stations: &[Station]) -> Vec<BoundPoint> {
-    let open = |station: &Station| BoundPoint {
-        s: station.s,
+/// A point without limits.
+pub(super) fn unbounded_at(s: f64) -> BoundPoint {
+    BoundPoint {
+        s,
         l_min: -f64::MAX,
         l_max: f64::MAX,
         right: EdgeCause::Unbounded,
         left: EdgeCause::Unbounded,
-    };
-    stations.iter().map(open).collect()
+    }
+}
+
+/// A bound without limits at every station.
+pub(super) fn unbounded(stations: &[Station]) -> Vec<BoundPoint> {
+    stations.iter().map(|station| unbounded_at(station.s)).collect()
 }
 
 /// Narrows a point to what both it and the limits allow. When that is nothing the point stays as it was and

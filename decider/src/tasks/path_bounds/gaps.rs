@@ -5,11 +5,13 @@
 //! chain into every gap: farthest first, then least lateral motion, with a surcharge on passing an obstacle on
 //! another side than in the tick before. So a road that can be passed is never taken for blocked, the answer
 //! does not depend on the order of the obstacles, and it does not flip without a reason.
+//!
+//! Where neither the obstacles nor the edges of the bound change, one gap stands for many stations.
 
 use super::bound::{BoundPoint, EdgeCause};
 use super::edges::{Limit, narrow};
 use super::input::Input;
-use super::obstacles::{Passage, Widening, is_in_scope};
+use super::obstacles::{Beside, Passage, Widening};
 use crate::frame::ObstacleId;
 use crate::road::Side;
 
@@ -50,84 +52,77 @@ struct Gap {
     cost: f64,
     /// Where that chain runs.
     l: f64,
-    /// Place of its predecessor among the gaps of the station before.
+    /// Place of its predecessor among the gaps of the slab before.
     parent: usize,
+}
+
+/// Stations in a row with the same gaps: no obstacle begins or ends between them and the bound keeps its edges.
+#[derive(Clone, Copy, Debug)]
+struct Slab {
+    /// Its first station.
+    first: usize,
+    /// Place of its rightmost gap among all gaps.
+    gaps: usize,
 }
 
 pub(super) fn limit(
     bound: &mut Vec<BoundPoint>,
     input: &Input,
-    remembered: &[(ObstacleId, Side)],
+    beside: &[Beside],
     widening: Widening,
 ) -> Passage {
-    let forbidden = forbidden_intervals(bound, input, remembered, widening);
-    if forbidden.is_empty() {
-        return Passage::default();
-    }
+    let forbidden = forbidden_intervals(bound.len(), input, beside, widening);
     let mut passage = Passage::default();
-    let mut layers: Vec<Gap> = Vec::with_capacity(2 * bound.len());
-    let mut starts: Vec<usize> = Vec::with_capacity(bound.len() + 1);
-    let mut active: Vec<Forbidden> = Vec::new();
-    let mut next = 0;
+    if forbidden.is_empty() {
+        return passage;
+    }
+    let mut slabs: Vec<Slab> = Vec::with_capacity(2 * forbidden.len());
+    let mut gaps: Vec<Gap> = Vec::with_capacity(4 * forbidden.len());
+    let mut active = Active::of(&forbidden, bound);
+    let mut first = 0;
 
-    for (i, point) in bound.iter().enumerate() {
-        let before = starts.last().copied().unwrap_or(0)..layers.len();
-        starts.push(layers.len());
-        active.retain(|obstacle| obstacle.past > i);
-        while let Some(obstacle) = forbidden.get(next).filter(|obstacle| obstacle.first <= i) {
-            let place = active.partition_point(|other| other.l_min <= obstacle.l_min);
-            active.insert(place, *obstacle);
-            next += 1;
-        }
-        open_gaps(point, &active, |right, left| {
-            if let Some(gap) = best_entry(
-                &layers[before.clone()],
-                i == 0,
-                input.ego.l,
-                right,
-                left,
-                &active,
-                i,
-            ) {
-                layers.push(gap);
+    while first < bound.len() {
+        active.move_to(first);
+        let past = first + count_alike(&bound[first..active.next_change().min(bound.len())]);
+        let start = gaps.len();
+        let before = slabs.last().map_or(0, |slab| slab.gaps)..start;
+        let entry = Entry {
+            is_first: first == 0,
+            ego_l: input.ego.l,
+            first,
+            stations: (past - first) as f64,
+        };
+        open_gaps(&bound[first], &active.beside, |right, left| {
+            if let Some(gap) = entry.best(&gaps[before.clone()], right, left, &active.beside) {
+                gaps.push(gap);
             }
         });
-        if starts[i] == layers.len() {
+        if gaps.len() == start {
             passage.is_blocked = true;
-            passage.blocked_by = closer(&active, &layers[before]);
-            starts.pop();
-            bound.truncate(i);
+            passage.blocked_by = closer(&active.beside, &gaps[before]);
+            bound.truncate(first);
             break;
         }
+        slabs.push(Slab { first, gaps: start });
+        first = past;
     }
-    carve(bound, &layers, &starts);
+    carve(&mut bound[..first], &gaps, &slabs);
     passage.passed = sides(bound, &forbidden);
     passage
 }
 
-/// What each obstacle in scope forbids, by first station.
+/// What each obstacle forbids, by first station.
 fn forbidden_intervals(
-    bound: &[BoundPoint],
+    stations: usize,
     input: &Input,
-    remembered: &[(ObstacleId, Side)],
+    beside: &[Beside],
     widening: Widening,
 ) -> Vec<Forbidden> {
-    let config = input.config;
     let half_width = input.vehicle.half_width();
-    let mut all: Vec<Forbidden> = Vec::with_capacity(input.obstacles.len());
-    for obstacle in input
-        .obstacles
-        .iter()
-        .filter(|obstacle| is_in_scope(obstacle, input))
-    {
-        let first = bound.partition_point(|p| p.s <= obstacle.start_s - config.obstacle_lon_start_buffer);
-        let past = bound.partition_point(|p| p.s <= obstacle.end_s + config.obstacle_lon_end_buffer);
-        if first >= past {
-            continue;
-        }
+    let forbidden = |obstacle: &Beside| {
         // Beside the ego the buffer gives way rather than demand a jump.
         let buffer = |room: f64| {
-            let kept = if first == 0 {
+            let kept = if obstacle.first == 0 {
                 room - half_width - EGO_SLACK
             } else {
                 widening.lateral
@@ -135,25 +130,68 @@ fn forbidden_intervals(
             kept.clamp(widening.hard.min(widening.lateral), widening.lateral)
         };
         let (room_left, room_right) = (input.ego.l - obstacle.end_l, obstacle.start_l - input.ego.l);
-        all.push(Forbidden {
+        Forbidden {
             id: obstacle.id,
-            first,
-            past,
+            first: obstacle.first,
+            past: obstacle.past,
             l_min: obstacle.start_l - half_width - buffer(room_right),
             l_max: obstacle.end_l + half_width + buffer(room_left),
-            remembered: remembered
-                .iter()
-                .find(|(id, _)| *id == obstacle.id)
-                .map(|(_, side)| *side),
-        });
+            remembered: obstacle.remembered,
+        }
+    };
+    let reached = beside.iter().take_while(|obstacle| obstacle.first < stations);
+    reached.map(forbidden).collect()
+}
+
+/// The obstacles beside one station, moved along the bound.
+struct Active<'a> {
+    /// By ascending right edge.
+    beside: Vec<Forbidden>,
+    /// Those still to come.
+    ahead: &'a [Forbidden],
+    /// The rightmost and the leftmost `l` of the whole bound: what lies beyond narrows nothing.
+    extent: (f64, f64),
+}
+
+impl<'a> Active<'a> {
+    fn of(all: &'a [Forbidden], bound: &[BoundPoint]) -> Self {
+        Self {
+            beside: Vec::with_capacity(all.len()),
+            ahead: all,
+            extent: bound.iter().fold((f64::MAX, -f64::MAX), |(right, left), point| {
+                (right.min(point.l_min), left.max(point.l_max))
+            }),
+        }
     }
-    all.sort_by(|a, b| {
-        a.first
-            .cmp(&b.first)
-            .then(a.l_min.total_cmp(&b.l_min))
-            .then(a.id.cmp(&b.id))
-    });
-    all
+
+    fn move_to(&mut self, station: usize) {
+        self.beside.retain(|obstacle| obstacle.past > station);
+        while let Some((obstacle, rest)) = self.ahead.split_first()
+            && obstacle.first <= station
+        {
+            if obstacle.l_max > self.extent.0 && obstacle.l_min < self.extent.1 {
+                let place = self.beside.partition_point(|other| other.l_min <= obstacle.l_min);
+                self.beside.insert(place, *obstacle);
+            }
+            self.ahead = rest;
+        }
+    }
+
+    /// The next station at which an obstacle begins or ends.
+    fn next_change(&self) -> usize {
+        let next = self.ahead.first().map_or(usize::MAX, |obstacle| obstacle.first);
+        self.beside
+            .iter()
+            .map(|obstacle| obstacle.past)
+            .fold(next, usize::min)
+    }
+}
+
+/// How many points have the edges of the first one.
+fn count_alike(points: &[BoundPoint]) -> usize {
+    let edges = |p: &BoundPoint| (p.l_min.to_bits(), p.l_max.to_bits(), p.right, p.left);
+    let alike = |p: &&BoundPoint| edges(p) == edges(&points[0]);
+    points.iter().take_while(alike).count()
 }
 
 /// Calls `found` for each free interval of a station, from right to left. `active` is sorted by `l_min`.
@@ -199,39 +237,44 @@ fn open_gaps(point: &BoundPoint, active: &[Forbidden], mut found: impl FnMut(Lim
     }
 }
 
-/// The best chain into a gap from the station before, if any of its gaps touches it.
-fn best_entry(
-    before: &[Gap],
+/// How chains come into the gaps of a slab.
+struct Entry {
     is_first: bool,
     ego_l: f64,
-    right: Limit,
-    left: Limit,
-    active: &[Forbidden],
-    i: usize,
-) -> Option<Gap> {
-    let flips = flip_cost(right, left, active, i);
-    let narrow = (COMFORTABLE_WIDTH - (left.l - right.l)).max(0.0) * NARROW_WEIGHT;
-    let entered = |from: f64, cost: f64, parent: usize| {
-        let l = from.clamp(right.l, left.l);
-        let cost = cost + (l - from).abs() + OFFSET_WEIGHT * l.abs() + narrow + flips;
-        Gap {
-            right,
-            left,
-            cost,
-            l,
-            parent,
+    /// Its first station, and how many there are.
+    first: usize,
+    stations: f64,
+}
+
+impl Entry {
+    /// The best chain into a gap from the slab before, if any of its gaps touches it; the leftmost of equals.
+    fn best(&self, before: &[Gap], right: Limit, left: Limit, active: &[Forbidden]) -> Option<Gap> {
+        let flips = flip_cost(right, left, active, self.first);
+        let narrow = (COMFORTABLE_WIDTH - (left.l - right.l)).max(0.0) * NARROW_WEIGHT;
+        let entered = |from: f64, cost: f64, parent: usize| {
+            let l = from.clamp(right.l, left.l);
+            let along = self.stations * (OFFSET_WEIGHT * l.abs() + narrow);
+            Gap {
+                right,
+                left,
+                cost: cost + (l - from).abs() + flips + along,
+                l,
+                parent,
+            }
+        };
+        if self.is_first {
+            return Some(entered(self.ego_l, 0.0, 0));
         }
-    };
-    if is_first {
-        return Some(entered(ego_l, 0.0, 0));
+        let touching = |gap: &Gap| gap.right.l <= left.l && right.l <= gap.left.l;
+        let mut best: Option<Gap> = None;
+        for (parent, gap) in before.iter().enumerate().filter(|(_, gap)| touching(gap)) {
+            let next = entered(gap.l, gap.cost, parent);
+            if best.is_none_or(|best| next.cost <= best.cost) {
+                best = Some(next);
+            }
+        }
+        best
     }
-    let touching = |gap: &Gap| gap.right.l <= left.l && right.l <= gap.left.l;
-    before
-        .iter()
-        .enumerate()
-        .filter(|(_, gap)| touching(gap))
-        .map(|(parent, gap)| entered(gap.l, gap.cost, parent))
-        .min_by(|a, b| a.cost.total_cmp(&b.cost).then(b.parent.cmp(&a.parent)))
 }
 
 /// Surcharges for the obstacles that begin at this station and would be passed on another side than before.
@@ -267,19 +310,21 @@ fn closer(active: &[Forbidden], before: &[Gap]) -> Option<ObstacleId> {
         .map(|o| o.id)
 }
 
-/// Narrows the bound to the best chain, walking back from its last station.
-fn carve(bound: &mut [BoundPoint], layers: &[Gap], starts: &[usize]) {
-    let Some(last) = starts.last() else { return };
-    let final_gaps = &layers[*last..];
-    let best = final_gaps
+/// Narrows the points to the best chain, walking back from the last slab.
+fn carve(points: &mut [BoundPoint], gaps: &[Gap], slabs: &[Slab]) {
+    let Some(last) = slabs.last() else { return };
+    let best = gaps[last.gaps..]
         .iter()
         .enumerate()
         .min_by(|a, b| a.1.cost.total_cmp(&b.1.cost).then(b.0.cmp(&a.0)));
     let mut place = best.map_or(0, |(place, _)| place);
-    for (point, start) in bound.iter_mut().zip(starts).rev() {
-        let gap = &layers[start + place];
-        narrow(point, gap.right, gap.left);
-        place = gap.parent;
+    let mut past = points.len();
+    for slab in slabs.iter().rev() {
+        let gap = &gaps[slab.gaps + place];
+        for point in &mut points[slab.first..past] {
+            narrow(point, gap.right, gap.left);
+        }
+        (place, past) = (gap.parent, slab.first);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Limits from the lane, a borrowed lane and the ego itself (`GetBoundaryFromLanesAndADC`).
 
 use super::bound::{Borrow, BoundPoint, EdgeCause, LaneType};
-use super::edges::{Limit, tighten};
+use super::edges::{Limit, tighten, unbounded_at};
 use super::input::Input;
 use super::stations::Station;
 use crate::road::{BoundaryType, Neighbour, Side};
@@ -30,14 +30,13 @@ pub(super) struct LaneRules {
     pub force_extend: bool,
 }
 
-/// Narrows `bound` to the lanes; ends it where nothing is left. Tells whose lane is borrowed, or `None` when
-/// there is none to borrow.
-pub(super) fn limit(
-    bound: &mut Vec<BoundPoint>,
+/// The bound that the lanes leave, up to where nothing is left, and whose lane is borrowed: `None` when there is
+/// none to borrow.
+pub(super) fn bound(
     stations: &[Station],
     input: &Input,
     rules: LaneRules,
-) -> Option<LaneType> {
+) -> (Vec<BoundPoint>, Option<LaneType>) {
     let half_width = input.vehicle.half_width();
     let here = &stations[0];
     let lane_width = here.lane.map_or(DEFAULT_LANE_WIDTH, |(left, right)| left + right);
@@ -45,8 +44,9 @@ pub(super) fn limit(
     let extension = (input.config.is_extend_lane_bounds_to_include_adc || rules.force_extend)
         .then(|| Extension::new(input, here.offset, rules.buffer));
     let mut borrowed = None;
+    let mut bound = Vec::with_capacity(stations.len());
 
-    for (i, station) in stations.iter().enumerate() {
+    for station in stations {
         edges.update(station);
         let neighbour = borrowed_width(station, input, rules.borrow);
         if let Some((_, reverse)) = neighbour {
@@ -72,12 +72,14 @@ pub(super) fn limit(
             l: (right.l - station.offset) + coeff(edges.right_is_lane) * half_width,
             ..right
         };
-        if !tighten(&mut bound[i], right, left) {
-            bound.truncate(i);
+        let mut point = unbounded_at(station.s);
+        if !tighten(&mut point, right, left) {
             break;
         }
+        bound.push(point);
     }
-    lane_type(rules.borrow, borrowed, input.config.quirks.borrows_phantom_lane)
+    let lane = lane_type(rules.borrow, borrowed, input.config.quirks.borrows_phantom_lane);
+    (bound, lane)
 }
 
 fn lane_type(borrow: Borrow, borrowed: Option<bool>, phantom: bool) -> Option<LaneType> {

@@ -29,9 +29,8 @@ pub(crate) use stations::station;
 use crate::frame::ObstacleId;
 use crate::reference_line::LineQuery;
 use crate::road::Side;
-use edges::unbounded;
 use lanes::LaneRules;
-use obstacles::{Passage, Widening};
+use obstacles::{Beside, Passage, Widening};
 
 /// Room beside the ego in the fallback bound, m.
 const FALLBACK_EGO_BUFFER: f64 = 0.5;
@@ -109,7 +108,8 @@ pub fn decide<L: LineQuery + ?Sized>(
     if stations.is_empty() {
         return Err(PathBoundsError::NoStations);
     }
-    let fallback = fallback(&stations, input, memory);
+    let beside = obstacles::beside(&stations, input, &memory.passed);
+    let fallback = fallback(&stations, input, &beside);
     if fallback.points.is_empty() {
         return Err(PathBoundsError::EmptyFallback);
     }
@@ -118,7 +118,7 @@ pub fn decide<L: LineQuery + ?Sized>(
     result.push(Label::Fallback, fallback, blocker);
 
     if memory.pull_over.is_requested {
-        match pull_over::bound(&stations, line, input, memory) {
+        match pull_over::bound(&stations, &beside, line, input, memory) {
             Ok((points, passage)) => {
                 check_ego_inside(&points, input, Label::PullOver)?;
                 let blocker = passage.blocked_by.filter(|_| !input.config.quirks.silent_blocker);
@@ -131,28 +131,29 @@ pub fn decide<L: LineQuery + ?Sized>(
                     },
                     blocker,
                 );
-                return Ok(result);
+                if input.config.quirks.pull_over_stands_alone {
+                    return Ok(result);
+                }
             }
             Err(refusal) => result.refusal = Some(refusal),
         }
     }
     if input.is_change_lane && input.config.enable_smarter_lane_change {
-        lane_change(&mut result, &stations, line, input, memory)?;
+        lane_change(&mut result, &stations, &beside, line, input, memory)?;
     } else {
-        regular(&mut result, &stations, input, memory)?;
+        regular(&mut result, &stations, &beside, input)?;
     }
     Ok(result)
 }
 
 /// The bound in which some path practically always exists.
-fn fallback(stations: &[Station], input: &Input, memory: &Memory) -> Made {
+fn fallback(stations: &[Station], input: &Input, beside: &[Beside]) -> Made {
     let rules = LaneRules {
         borrow: Borrow::None,
         buffer: FALLBACK_EGO_BUFFER,
         force_extend: true,
     };
-    let mut points = unbounded(stations);
-    lanes::limit(&mut points, stations, input, rules);
+    let (mut points, _) = lanes::bound(stations, input, rules);
     let mut passage = Passage::default();
     if !input.config.quirks.fallback_ignores_obstacles {
         let config = input.config;
@@ -160,11 +161,10 @@ fn fallback(stations: &[Station], input: &Input, memory: &Memory) -> Made {
             lateral: config.fallback_obstacle_lat_buffer,
             hard: config.hard_obstacle_lat_buffer,
         };
-        let mut narrowed = points.clone();
-        passage = obstacles::limit(&mut narrowed, input, &memory.passed, widening);
+        passage = obstacles::limit(&mut points, input, beside, widening);
         // An ego that already touches a widened obstacle still needs a bound to brake in.
-        if !narrowed.is_empty() {
-            points = narrowed;
+        if points.is_empty() {
+            (points, _) = lanes::bound(stations, input, rules);
         }
     }
     Made {
@@ -178,6 +178,7 @@ fn fallback(stations: &[Station], input: &Input, memory: &Memory) -> Made {
 fn lane_change<L: LineQuery + ?Sized>(
     result: &mut PathBounds,
     stations: &[Station],
+    beside: &[Beside],
     line: &L,
     input: &Input,
     memory: &mut Memory,
@@ -187,10 +188,9 @@ fn lane_change<L: LineQuery + ?Sized>(
         buffer: EGO_BUFFER,
         force_extend: true,
     };
-    let mut points = unbounded(stations);
-    lanes::limit(&mut points, stations, input, rules);
+    let (mut points, _) = lanes::bound(stations, input, rules);
     lane_change::keep_out(&mut points, stations, line, input, &mut memory.change_lane);
-    let made = around_obstacles(points, input, &memory.passed);
+    let made = around_obstacles(points, input, beside);
     if made.points.is_empty() {
         if input.config.quirks.lane_change_discards_fallback {
             return Err(PathBoundsError::EmptyLaneChange);
@@ -212,8 +212,8 @@ fn lane_change<L: LineQuery + ?Sized>(
 fn regular(
     result: &mut PathBounds,
     stations: &[Station],
+    beside: &[Beside],
     input: &Input,
-    memory: &Memory,
 ) -> Result<(), PathBoundsError> {
     for borrow in [Borrow::None].iter().chain(input.borrow) {
         let rules = LaneRules {
@@ -221,11 +221,10 @@ fn regular(
             buffer: EGO_BUFFER,
             force_extend: false,
         };
-        let mut points = unbounded(stations);
-        let Some(lane) = lanes::limit(&mut points, stations, input, rules) else {
+        let (points, Some(lane)) = lanes::bound(stations, input, rules) else {
             continue;
         };
-        let made = around_obstacles(points, input, &memory.passed);
+        let made = around_obstacles(points, input, beside);
         if made.points.is_empty() {
             continue;
         }
@@ -243,14 +242,14 @@ fn regular(
 }
 
 /// Narrows a lane bound to a way around static obstacles.
-fn around_obstacles(mut points: Vec<BoundPoint>, input: &Input, remembered: &[(ObstacleId, Side)]) -> Made {
+fn around_obstacles(mut points: Vec<BoundPoint>, input: &Input, beside: &[Beside]) -> Made {
     let pads = input.config.quirks.pad_through_blocker;
     let open = if pads { points.clone() } else { Vec::new() };
     let widening = Widening {
         lateral: input.config.obstacle_lat_buffer,
         hard: input.config.hard_obstacle_lat_buffer,
     };
-    let passage = obstacles::limit(&mut points, input, remembered, widening);
+    let passage = obstacles::limit(&mut points, input, beside, widening);
     let mut padding = 0;
     if passage.blocked_by.is_some() && pads {
         let tail = open.iter().skip(points.len()).take(PADDING);

@@ -2,6 +2,7 @@
 
 use super::bound::BoundPoint;
 use super::input::{Input, ObstacleSl};
+use super::stations::{self, Station};
 use super::{gaps, greedy};
 use crate::frame::ObstacleId;
 use crate::road::Side;
@@ -15,6 +16,20 @@ pub(super) struct Widening {
     pub hard: f64,
 }
 
+/// An obstacle in scope and the stations beside it: the same for all candidates of a call.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beside {
+    pub id: ObstacleId,
+    /// First station beside it, and the first one past it.
+    pub first: usize,
+    pub past: usize,
+    /// Its right and left edge, m.
+    pub start_l: f64,
+    pub end_l: f64,
+    /// The side on which it was passed in the tick before.
+    pub remembered: Option<Side>,
+}
+
 /// What a bound's obstacles did to it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Passage {
@@ -26,11 +41,40 @@ pub(super) struct Passage {
     pub passed: Vec<(ObstacleId, Side)>,
 }
 
+/// Finds the stations beside every obstacle in scope, by first station; then right to left, whatever the order of
+/// the input.
+pub(super) fn beside(stations: &[Station], input: &Input, remembered: &[(ObstacleId, Side)]) -> Vec<Beside> {
+    let config = input.config;
+    let mut all: Vec<Beside> = Vec::with_capacity(input.obstacles.len());
+    for obstacle in input.obstacles.iter().filter(|o| is_in_scope(o, input)) {
+        let first = stations::count_until(stations, obstacle.start_s - config.obstacle_lon_start_buffer);
+        let past = stations::count_until(stations, obstacle.end_s + config.obstacle_lon_end_buffer);
+        if first < past {
+            let before = remembered.iter().find(|(id, _)| *id == obstacle.id);
+            all.push(Beside {
+                id: obstacle.id,
+                first,
+                past,
+                start_l: obstacle.start_l,
+                end_l: obstacle.end_l,
+                remembered: before.map(|(_, side)| *side),
+            });
+        }
+    }
+    all.sort_by(|a, b| {
+        a.first
+            .cmp(&b.first)
+            .then(a.start_l.total_cmp(&b.start_l))
+            .then(a.id.cmp(&b.id))
+    });
+    all
+}
+
 /// Narrows `bound` to one way around all static obstacles; ends it where there is none.
 pub(super) fn limit(
     bound: &mut Vec<BoundPoint>,
     input: &Input,
-    remembered: &[(ObstacleId, Side)],
+    beside: &[Beside],
     widening: Widening,
 ) -> Passage {
     if bound.is_empty() {
@@ -39,7 +83,7 @@ pub(super) fn limit(
     if input.config.quirks.greedy_sides {
         greedy::limit(bound, input)
     } else {
-        gaps::limit(bound, input, remembered, widening)
+        gaps::limit(bound, input, beside, widening)
     }
 }
 

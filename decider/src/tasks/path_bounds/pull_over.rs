@@ -3,7 +3,7 @@
 use super::bound::{BoundPoint, EdgeCause};
 use super::edges::{Limit, narrow, unbounded};
 use super::input::{Input, Memory, PullOver, PullOverPlace};
-use super::obstacles::{self, Passage, Widening};
+use super::obstacles::{self, Beside, Passage, Widening};
 use super::stations::Station;
 use super::{road, search};
 use crate::reference_line::{LineQuery, SlPoint};
@@ -46,6 +46,7 @@ pub enum PullOverRefusal {
 /// On refusal the place in memory is cleared (once the search has begun), the request stays.
 pub(super) fn bound<L: LineQuery + ?Sized>(
     stations: &[Station],
+    beside: &[Beside],
     line: &L,
     input: &Input,
     memory: &mut Memory,
@@ -61,7 +62,7 @@ pub(super) fn bound<L: LineQuery + ?Sized>(
         lateral: input.config.obstacle_lat_buffer,
         hard: input.config.hard_obstacle_lat_buffer,
     };
-    let passage = obstacles::limit(&mut bound, input, &memory.passed, widening);
+    let passage = obstacles::limit(&mut bound, input, beside, widening);
     if bound.is_empty() {
         return Err(PullOverRefusal::NoPlace);
     }

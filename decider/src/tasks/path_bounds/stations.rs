@@ -41,6 +41,25 @@ pub(super) fn sample<L: LineQuery + ?Sized>(line: &L, input: &Input) -> Vec<Stat
     stations
 }
 
+/// How many stations lie at or before `s`.
+pub(super) fn count_until(stations: &[Station], s: f64) -> usize {
+    let first = stations.first().map_or(0.0, |station| station.s);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "saturates, and is only where the count begins"
+    )]
+    let guess = ((s - first) / RESOLUTION) as usize;
+    let mut count = guess.min(stations.len());
+    while count > 0 && stations[count - 1].s > s {
+        count -= 1;
+    }
+    while count < stations.len() && stations[count].s <= s {
+        count += 1;
+    }
+    count
+}
+
 /// One station by single queries: what [`LineQuery::sample`] does unless a line knows a faster way.
 pub(crate) fn station<L: LineQuery + ?Sized>(line: &L, s: f64) -> Station {
     Station {
