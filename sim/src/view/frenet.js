@@ -93,7 +93,7 @@ function paintAxes(context, map, width, height) {
   context.save();
   context.translate(9, GUTTER.top + map.h / 2);
   context.rotate(-Math.PI / 2);
-  context.fillText("offset l [m], left is up", 0, 0);
+  context.fillText(map.h > 150 ? "offset l [m], left is up" : "l [m], left is up", 0, 0);
   context.restore();
 }
 
