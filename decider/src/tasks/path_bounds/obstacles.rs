@@ -23,9 +23,11 @@ pub(super) struct Beside {
     /// First station beside it, and the first one past it.
     pub first: usize,
     pub past: usize,
-    /// Its right and left edge, m.
-    pub start_l: f64,
-    pub end_l: f64,
+    /// Its near edge, m.
+    pub start_s: f64,
+    /// Its right and its left edge, m.
+    pub right: f64,
+    pub left: f64,
     /// The side on which it was passed in the tick before.
     pub remembered: Option<Side>,
 }
@@ -55,8 +57,9 @@ pub(super) fn beside(stations: &[Station], input: &Input, remembered: &[(Obstacl
                 id: obstacle.id,
                 first,
                 past,
-                start_l: obstacle.start_l,
-                end_l: obstacle.end_l,
+                start_s: obstacle.start_s,
+                right: obstacle.start_l.min(obstacle.end_l),
+                left: obstacle.start_l.max(obstacle.end_l),
                 remembered: before.map(|(_, side)| *side),
             });
         }
@@ -64,7 +67,7 @@ pub(super) fn beside(stations: &[Station], input: &Input, remembered: &[(Obstacl
     all.sort_by(|a, b| {
         a.first
             .cmp(&b.first)
-            .then(a.start_l.total_cmp(&b.start_l))
+            .then(a.right.total_cmp(&b.right))
             .then(a.id.cmp(&b.id))
     });
     all
@@ -87,13 +90,16 @@ pub(super) fn limit(
     }
 }
 
-/// Whether an obstacle concerns the static bounds at all.
+/// Whether an obstacle concerns the static bounds at all. One whose box has an edge that is no number cannot be
+/// placed and does not.
 pub(super) fn is_in_scope(obstacle: &ObstacleSl, input: &Input) -> bool {
+    let edges = [obstacle.start_s, obstacle.end_s, obstacle.start_l, obstacle.end_l];
+    let is_placed = edges.iter().all(|edge| !edge.is_nan());
     let stands = obstacle.is_static && obstacle.speed <= input.config.static_obstacle_speed_threshold;
     let last = if input.config.quirks.forgets_beside_overhang {
         obstacle.end_s
     } else {
         obstacle.end_s + input.config.obstacle_lon_end_buffer
     };
-    !obstacle.is_virtual && !obstacle.is_ignored && stands && last >= input.ego.s
+    is_placed && !obstacle.is_virtual && !obstacle.is_ignored && stands && last >= input.ego.s
 }
