@@ -3,10 +3,10 @@
 //! A decision is a pure function of the frame and this; replaying the frames of a trace from the first one
 //! rebuilds it.
 
-use crate::decision::TrajectoryPoint;
+use crate::decision::{PathPoint, Stop, TrajectoryPoint};
 use crate::tasks::lane_borrow::BorrowState;
 use crate::tasks::lane_change::LaneChangeState;
-use crate::tasks::path_bounds::Memory;
+use crate::tasks::path_bounds::{Label, Memory};
 
 /// The decider's memory. Starts empty.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,8 +17,21 @@ pub struct Context {
     pub borrow: BorrowState,
     /// Of the lane-change decider.
     pub lane_change: LaneChangeState,
+    /// What the last tick slowed down for.
+    pub stop: Option<Stop>,
+    /// The path of the last tick.
+    pub path: Option<LastPath>,
     /// The trajectory of the last tick and the time it starts at.
     pub last: Option<LastTrajectory>,
+}
+
+/// A path that is being driven.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LastPath {
+    /// Label of the bound that it was found in.
+    pub label: Label,
+    /// Its points.
+    pub points: Vec<PathPoint>,
 }
 
 /// A trajectory that is being driven.

@@ -64,6 +64,8 @@ pub enum Assessment {
 pub enum Rejection {
     /// It leaves the bound.
     LeavesBound,
+    /// A corner of the body leaves the road.
+    LeavesRoad,
     /// It bends more than the steering can.
     Curvature,
     /// The body would touch this obstacle.

@@ -104,7 +104,7 @@ impl Entry {
     /// The family; its map from `maps`, where it stays.
     ///
     /// # Errors
-    /// [`ScenarioError::MapNotFound`] where a shared map is not on this machine: such a scenario is skipped.
+    /// [`ScenarioError::SharedMapsAbsent`] where a shared map is not on this machine: such a scenario is skipped.
     pub fn load(&self, maps: &MapCache) -> Result<Family, ScenarioError> {
         let folder = if self.needs_shared_maps {
             "catalog/real"

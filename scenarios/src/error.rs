@@ -82,7 +82,18 @@ pub enum ScenarioError {
         /// What is wrong and what is expected.
         problem: String,
     },
-    /// There is no such map: a run can only be skipped.
+    /// The folder of shared maps is not on this machine: the scenario can only be skipped.
+    #[error("{place}: map `{map}`: there is no folder `{}`; set CORRIDOR_MAPS to the folder of shared maps{}",
+        folder.display(), place.excerpt())]
+    SharedMapsAbsent {
+        /// Where it is asked for.
+        place: Box<Place>,
+        /// The map as written.
+        map: String,
+        /// Where the folder was looked for.
+        folder: PathBuf,
+    },
+    /// There is no such map.
     #[error("{place}: no map `{map}`: {hint}{}", place.excerpt())]
     MapNotFound {
         /// Where it is asked for.

@@ -58,7 +58,8 @@ impl MapCache {
     /// The map called `name` in a scenario file that lies in `base`.
     ///
     /// # Errors
-    /// [`ScenarioError::MapNotFound`] or [`ScenarioError::MapInvalid`], at `place`.
+    /// [`ScenarioError::SharedMapsAbsent`], [`ScenarioError::MapNotFound`] or [`ScenarioError::MapInvalid`], at
+    /// `place`.
     pub(crate) fn get(&self, name: &str, base: &Path, place: &Place) -> Result<LoadedMap, ScenarioError> {
         if let Some(found) = self.only.as_ref().or(self.lock().get(name)) {
             return Ok(found.clone());
@@ -68,8 +69,16 @@ impl MapCache {
             map: name.to_owned(),
             hint,
         };
+        let folder = shared_maps();
+        if name.starts_with(MAPS_PREFIX) && !folder.is_dir() {
+            return Err(ScenarioError::SharedMapsAbsent {
+                place: Box::new(place.clone()),
+                map: name.to_owned(),
+                folder,
+            });
+        }
         let (key, text): (String, Arc<str>) = if is_path(name) {
-            let path = locate(name, base).map_err(not_found)?;
+            let path = locate(name, base, &folder).map_err(not_found)?;
             let key = path.display().to_string();
             if let Some(found) = self.lock().get(&key) {
                 return Ok(found.clone());
@@ -124,9 +133,9 @@ fn is_path(name: &str) -> bool {
 }
 
 /// The path that a map name means, or where it was looked for in vain.
-fn locate(name: &str, base: &Path) -> Result<PathBuf, String> {
+fn locate(name: &str, base: &Path, shared: &Path) -> Result<PathBuf, String> {
     let path = match name.strip_prefix(MAPS_PREFIX) {
-        Some(rest) => shared_maps().join(rest),
+        Some(rest) => shared.join(rest),
         None => base.join(name),
     };
     if path.is_file() {
@@ -134,7 +143,7 @@ fn locate(name: &str, base: &Path) -> Result<PathBuf, String> {
     }
     Err(if name.starts_with(MAPS_PREFIX) {
         format!(
-            "`{}` does not exist; set {MAPS_VARIABLE} to the folder of shared maps",
+            "`{}` does not exist in the folder of shared maps, which {MAPS_VARIABLE} names",
             path.display()
         )
     } else {

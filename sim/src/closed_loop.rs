@@ -127,7 +127,7 @@ impl ClosedLoop {
         let moved = self.agents.advance(&ego, self.world.dt());
         self.world.step(controls, moved);
         let footprint = self.world.ego_footprint();
-        let overlapping: Vec<ObstacleId> = self.world.overlaps().collect();
+        let overlapping: Vec<ObstacleId> = self.world.hits().collect();
         self.monitor.step(&StepView {
             time: self.clock.time() + self.clock.since_tick(step + 1),
             ego: &self.world.ego(),
@@ -146,7 +146,7 @@ impl ClosedLoop {
         TickRecord {
             events: self
                 .story
-                .of(&frame, &decision, self.monitor.is_over(), self.world.overlaps()),
+                .of(&frame, &decision, self.monitor.is_over(), self.world.hits()),
             ego: self.world.ego(),
             clearance: self.world.clearance(),
             hash: format!("{hash:016x}"),

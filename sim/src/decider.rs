@@ -10,6 +10,7 @@ use corridor_decider::planner::Planner;
 use corridor_decider::reference_line::{LineQuery, SlPoint};
 use corridor_scenarios::Scenario;
 use serde::{Deserialize, Serialize};
+use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Faults planted between the world and the decider, to see whether a sweep catches them.
@@ -21,7 +22,14 @@ pub enum Fault {
     None,
     /// Obstacles are seen on the other side of the reference line: `l` with the wrong sign.
     Mirrored,
+    /// The decider panics at tick [`SUDDEN`].
+    Panic,
+    /// From tick [`SUDDEN`] on a number of the trajectory is none.
+    Nan,
 }
+
+/// The tick of sudden faults: late enough to be under way, early enough for every run.
+const SUDDEN: u32 = 10;
 
 /// A planner and its memory.
 pub(crate) struct Decider {
@@ -49,14 +57,26 @@ impl Decider {
         let decide = || match fault {
             Fault::None => planner.decide(frame, context),
             Fault::Mirrored => planner.decide(&mirrored(frame), context),
+            Fault::Panic if frame.tick == SUDDEN => panic!("a planted fault"),
+            Fault::Nan if frame.tick >= SUDDEN => not_a_number(planner.decide(frame, context)),
+            Fault::Panic | Fault::Nan => planner.decide(frame, context),
         };
-        catch_unwind(AssertUnwindSafe(decide)).map_err(|panic| {
-            let text = panic.downcast_ref::<String>().map(String::as_str);
-            text.or(panic.downcast_ref::<&str>().copied())
-                .unwrap_or("no message")
-                .to_owned()
-        })
+        catch_unwind(AssertUnwindSafe(decide)).map_err(|panic| said(&*panic).to_owned())
     }
+}
+
+/// What a panic said.
+pub(crate) fn said(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    text.or(panic.downcast_ref::<&str>().copied())
+        .unwrap_or("no message")
+}
+
+fn not_a_number(mut decision: Decision) -> Decision {
+    if let Some(point) = decision.trajectory.last_mut() {
+        point.v = f64::NAN;
+    }
+    decision
 }
 
 /// The frame with every obstacle on the other side of the ego's line.

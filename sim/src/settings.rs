@@ -30,6 +30,15 @@ impl Default for Settings {
     }
 }
 
+/// Largest number that a setting may be: above every stiffness and inertia of a car. None is negative.
+const LARGEST: f64 = 1e6;
+
+/// Shortest and longest physics step, s: below, a run takes a day; above, the car outruns its tyres' lag.
+const STEPS: (f64, f64) = (1e-4, 0.05);
+
+/// Most physics steps of a planning tick: at the usual step, one decision a second.
+const MOST_STEPS: f64 = 100.0;
+
 /// Why a setting cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -97,26 +106,46 @@ impl Settings {
         }
         let mut tree = serde_json::to_value(&self).map_err(|error| wrong(error.to_string()))?;
         let place = find(&mut tree, key)?;
-        let given = serde_json::from_str(value).unwrap_or_else(|_| serde_json::Value::from(value));
-        if place.is_object() {
-            return Err(wrong("is a group of settings, not one".to_owned()));
-        }
-        *place = given;
+        *place = parse(place, value).map_err(wrong)?;
         serde_json::from_value(tree).map_err(|error| wrong(error.to_string()))
     }
 
     /// What no single setting can tell.
     fn check(&self) -> Result<(), SettingError> {
+        let (shortest, longest) = STEPS;
+        if !(shortest..=longest).contains(&self.physics.dt) {
+            return Err(SettingError::Value {
+                key: "physics.dt".to_owned(),
+                value: self.physics.dt.to_string(),
+                problem: format!("must be {shortest} to {longest} s"),
+            });
+        }
         let ratio = self.tick / self.physics.dt;
-        let whole = ratio.is_finite() && (1.0..=1000.0).contains(&ratio.round());
+        let whole = ratio.is_finite() && (1.0..=MOST_STEPS).contains(&ratio.round());
         if !whole || (ratio - ratio.round()).abs() > 1e-9 {
             return Err(SettingError::Value {
                 key: "tick".to_owned(),
                 value: self.tick.to_string(),
-                problem: format!("must be 1 to 1000 whole physics steps of {} s", self.physics.dt),
+                problem: format!(
+                    "must be 1 to {MOST_STEPS} whole physics steps of {} s",
+                    self.physics.dt
+                ),
             });
         }
         Ok(())
+    }
+}
+
+/// The value as the kind of thing that `place` holds.
+fn parse(place: &serde_json::Value, value: &str) -> Result<serde_json::Value, String> {
+    let given = serde_json::from_str(value).unwrap_or_else(|_| serde_json::Value::from(value));
+    match place {
+        serde_json::Value::Object(_) => Err("is a group of settings, not one".to_owned()),
+        serde_json::Value::Number(_) => match given.as_f64() {
+            Some(number) if (0.0..=LARGEST).contains(&number) => Ok(given),
+            _ => Err(format!("must be a number from 0 to {LARGEST}")),
+        },
+        _ => Ok(given),
     }
 }
 
@@ -181,7 +210,7 @@ mod tests {
         let message = |text| set(text).unwrap_err().to_string();
         assert!(message("decider.path_bounds.lat=1").contains("obstacle_lat_buffer"));
         assert!(message("nothing").contains("key=value"));
-        assert!(message("tick=fast").contains("invalid type"));
+        assert!(message("tick=fast").contains("must be a number"));
         assert!(message("tick=0.015").contains("whole physics steps"));
         assert!(message("decider.path=3").contains("group"));
         assert!(message("tick.x=3").contains("nothing below it"));

@@ -1,12 +1,13 @@
 //! The lane-follow planner: one tick from frame to decision.
 
+use super::braking;
 use super::choice::{self, Choice};
 use crate::config::Config;
-use crate::context::{Context, LastTrajectory};
+use crate::context::{Context, LastPath, LastTrajectory};
 use crate::decision::{Assessment, Candidate, Decision, Outcome, PullOverTarget, Rejection, Stop, StopCause};
 use crate::frame::{Command, Frame};
 use crate::tasks::path::{LineTable, Path};
-use crate::tasks::path_bounds::{self, Input, Label, PathBounds, PullOverKind};
+use crate::tasks::path_bounds::{self, Input, Label, PathBound, PathBounds, PullOverKind};
 use crate::tasks::scene::Scene;
 use crate::tasks::start_point::{StartPoint, at_time, start_point};
 use crate::tasks::{lane_borrow, lane_change, speed};
@@ -54,7 +55,12 @@ impl Planner {
                 return Some(target);
             }
         }
-        (!frame.lines.is_empty()).then(|| scene(0))
+        let mut own = (!frame.lines.is_empty()).then(|| scene(0))?;
+        if lane_change::target_line(frame).is_some() {
+            // Who keeps the speed of the traffic beside him never meets another gap.
+            own.cruise_speed *= self.config.speed.gap_seeking_share;
+        }
+        Some(own)
     }
 }
 
@@ -77,9 +83,15 @@ fn decide_along(scene: &Scene, context: &mut Context) -> Decision {
     let Ok(bounds) = path_bounds::decide(scene.line, &input, &mut context.bounds) else {
         return emergency_stop(scene.frame, &scene.start, context, scene.vehicle);
     };
-    let table = LineTable::new(scene.line, scene.ego.s);
+    let end_s = bounds
+        .bounds
+        .iter()
+        .map(PathBound::end_s)
+        .fold(scene.ego.s, f64::max);
+    let table = LineTable::new(scene.line, scene.ego.s, end_s);
     let choice = choice::choose(scene, &table, &bounds, context);
     lane_borrow::observe(&mut context.borrow, choice.own_lane_is_blocked);
+    lane_borrow::observe_traffic(&mut context.borrow, choice.is_free_to_borrow);
     drive(scene, context, bounds, choice)
 }
 
@@ -114,13 +126,24 @@ fn destination(scene: &Scene) -> Option<crate::geometry::Vec2> {
 /// Turns the choice into a trajectory and remembers what the next tick needs.
 fn drive(scene: &Scene, context: &mut Context, bounds: PathBounds, choice: Choice) -> Decision {
     let Some((chosen, path)) = choice.path else {
+        context.path = None;
         let mut decision = emergency_stop(scene.frame, &scene.start, context, scene.vehicle);
         decision.candidates = candidates(bounds, &choice.assessments);
         return decision;
     };
     let label = bounds.bounds[chosen].label;
     context.bounds.passed.clone_from(&bounds.passed[chosen]);
-    let planned = speed::plan(scene, &path, pull_over_stop(scene, context, label, &path));
+    context.path = Some(LastPath {
+        label,
+        points: path.points.clone(),
+    });
+    let planned = speed::plan(
+        scene,
+        &path,
+        pull_over_stop(scene, context, label, &path),
+        context.stop,
+    );
+    context.stop = planned.stop;
     let place = context
         .bounds
         .pull_over
@@ -179,7 +202,7 @@ fn emergency_stop(frame: &Frame, start: &StartPoint, context: &Context, vehicle:
         candidates: Vec::new(),
         chosen: None,
         path: Vec::new(),
-        trajectory: choice::braking_trajectory(start, last, -vehicle.max_deceleration),
+        trajectory: braking::braking_trajectory(start, last, -vehicle.max_deceleration),
         stop: None,
         outcome: if last.is_some() {
             Outcome::LastPath

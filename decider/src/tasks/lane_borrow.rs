@@ -41,6 +41,8 @@ pub struct BorrowState {
     pub blocked_cycles: u32,
     /// Ticks in a row in which the own lane would have done.
     pub usable_cycles: u32,
+    /// Ticks in a row in which traffic left time to go out.
+    pub free_cycles: u32,
     /// Sides that may be borrowed now, in order of preference; empty: none.
     pub sides: Vec<Borrow>,
 }
@@ -84,6 +86,19 @@ pub fn observe(state: &mut BorrowState, own_lane_is_blocked: Option<bool>) {
         }
         None => {}
     }
+}
+
+/// How many ticks traffic must have left time before the car goes out: a gap that is there for one tick is
+/// none.
+pub const FREE_CYCLES: u32 = 4;
+
+/// Takes note of whether traffic left time to go out; `None`: that was not asked.
+pub fn observe_traffic(state: &mut BorrowState, is_free: Option<bool>) {
+    state.free_cycles = if is_free == Some(true) {
+        state.free_cycles + 1
+    } else {
+        0
+    };
 }
 
 /// Sides whose line may be crossed all the way ahead, the left first. Double yellow forbids either side.

@@ -18,6 +18,9 @@ const ONCOMING: (f64, f64, f64) = (50.0, 5.0, 1.0);
 /// Half the width of the hysteresis on a gap, m.
 const HYSTERESIS: f64 = 0.5;
 
+/// How many ticks the target lane must have been clear: a gap that is there for one tick is none.
+const CLEAR_CYCLES: u32 = 4;
+
 /// Once the car overlaps the target lane by this much it does not turn back, m.
 const COMMITTED: f64 = 0.3;
 
@@ -26,6 +29,8 @@ const COMMITTED: f64 = 0.3;
 pub struct LaneChangeState {
     /// Obstacles that blocked the change in the last tick.
     pub blocking: Vec<ObstacleId>,
+    /// Ticks in a row without one.
+    pub clear_cycles: u32,
 }
 
 /// Place of the line to change to, if the frame offers one.
@@ -41,7 +46,12 @@ pub fn is_clear(scene: &Scene, state: &mut LaneChangeState) -> bool {
             state.blocking.push(moving.id);
         }
     }
-    state.blocking.is_empty() || is_committed(scene)
+    state.clear_cycles = if state.blocking.is_empty() {
+        state.clear_cycles + 1
+    } else {
+        0
+    };
+    state.clear_cycles >= CLEAR_CYCLES || is_committed(scene)
 }
 
 /// Whether the car is already too far over the line to turn back.

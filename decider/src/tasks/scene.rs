@@ -20,6 +20,8 @@ pub struct Scene<'a> {
     pub line: &'a ReferenceLine,
     /// Whether it leads into another lane.
     pub is_change_lane: bool,
+    /// Speed to drive where nothing limits it, m/s.
+    pub cruise_speed: f64,
     /// The ego's body.
     pub vehicle: &'a VehicleParams,
     /// Settings.
@@ -90,6 +92,7 @@ impl<'a> Scene<'a> {
             frame,
             line,
             is_change_lane: frame.lines[place].is_change_lane,
+            cruise_speed: frame.cruise_speed,
             vehicle,
             config,
             start,

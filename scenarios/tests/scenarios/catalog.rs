@@ -16,7 +16,7 @@ fn families() -> Vec<(&'static str, Family)> {
     for entry in ENTRIES {
         match entry.load(&maps) {
             Ok(family) => families.push((entry.name, family)),
-            Err(ScenarioError::MapNotFound { .. })
+            Err(ScenarioError::SharedMapsAbsent { .. })
                 if entry.needs_shared_maps && std::env::var_os("CORRIDOR_REQUIRE_MAPS").is_none() =>
             {
                 eprintln!("{} skipped: no maps", entry.name);

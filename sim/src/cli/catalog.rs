@@ -1,6 +1,6 @@
 //! `corridor list` and `corridor validate`.
 
-use super::{Gate, output, source};
+use super::{Gate, message, output, source};
 use clap::Args;
 use corridor_scenarios::{Family, MapCache, ScenarioError, catalog};
 use std::path::Path;
@@ -30,7 +30,7 @@ impl List {
                         family.description()
                     ));
                 }
-                Err(ScenarioError::MapNotFound { .. }) => {
+                Err(ScenarioError::SharedMapsAbsent { .. }) => {
                     output::print(&format!(
                         "{:width$}  skipped   its map is not on this machine\n",
                         entry.name
@@ -55,15 +55,17 @@ impl Validate {
     pub(crate) fn execute(&self) -> anyhow::Result<Gate> {
         let maps = MapCache::new();
         let mut mistakes = 0;
+        let mut tell = |result: anyhow::Result<String>| match result {
+            Ok(text) => output::print(&text),
+            Err(error) => {
+                mistakes += 1;
+                output::note(&format!("error: {}", message(&error)));
+            }
+        };
         for given in &self.files {
-            for file in source::files(given)? {
-                match check(&file, &maps) {
-                    Ok(text) => println!("{}: {text}", file.display()),
-                    Err(error) => {
-                        mistakes += 1;
-                        eprintln!("error: {error:#}");
-                    }
-                }
+            match source::files(given) {
+                Ok(files) => files.iter().for_each(|file| tell(check(file, &maps))),
+                Err(error) => tell(Err(error)),
             }
         }
         anyhow::ensure!(mistakes == 0, "{mistakes} of the files cannot be run");
@@ -73,7 +75,9 @@ impl Validate {
 
 fn check(file: &Path, maps: &MapCache) -> anyhow::Result<String> {
     let family = match Family::load_with(file, maps) {
-        Err(ScenarioError::MapNotFound { hint, .. }) => return Ok(format!("skipped: {hint}")),
+        Err(ScenarioError::SharedMapsAbsent { map, .. }) => {
+            return Ok(format!("{}: skipped: {}\n", file.display(), source::absent(&map)));
+        }
         family => family?,
     };
     let seeds = if family.is_fixed() { 1 } else { SEEDS_DRAWN };
@@ -83,6 +87,7 @@ fn check(file: &Path, maps: &MapCache) -> anyhow::Result<String> {
     }
     let warnings = family.map_warnings().len();
     Ok(format!(
-        "good; {seeds} seeds drawn, {rejected} draws rejected, {warnings} warnings of its map"
+        "{}: good; {seeds} seeds drawn, {rejected} draws rejected, {warnings} warnings of its map\n",
+        file.display()
     ))
 }

@@ -61,8 +61,18 @@ pub(crate) fn main() -> ExitCode {
         Ok(Gate::Passed) => ExitCode::SUCCESS,
         Ok(Gate::Failed) => ExitCode::from(1),
         Err(error) => {
-            eprintln!("error: {error:#}");
+            output::note(&format!("error: {}", message(&error)));
             ExitCode::from(2)
         }
     }
+}
+
+/// The error and what caused it, in one line. Some errors already end with their cause; it is not said twice.
+fn message(error: &anyhow::Error) -> String {
+    let causes = error.chain().map(ToString::to_string);
+    causes.fold(String::new(), |text, cause| match text.as_str() {
+        "" => cause,
+        said if said.ends_with(&cause) => text,
+        _ => format!("{text}: {cause}"),
+    })
 }

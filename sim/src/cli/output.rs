@@ -1,20 +1,51 @@
-//! Writing results: whole files or none.
+//! Writing results: whole files or none, and never a panic because nobody reads.
 
 use anyhow::Context;
+use std::fs::File;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Makes sure that [`write`] will be able to write `path`, before any work is done for it. Leaves nothing behind.
+pub(crate) fn check(path: &Path) -> anyhow::Result<()> {
+    anyhow::ensure!(
+        !path.is_dir(),
+        "cannot write `{}`: it is a folder, the name of a file is wanted",
+        path.display()
+    );
+    if is_special(path) {
+        return Ok(());
+    }
+    let partial = partial(path);
+    File::create(&partial)
+        .and_then(|_| std::fs::remove_file(&partial))
+        .with_context(|| format!("cannot write `{}`", path.display()))
+}
 
 /// Writes `text` to `path` by way of a file beside it, so that nobody ever reads half of it.
 pub(crate) fn write(path: &Path, text: &str) -> anyhow::Result<()> {
-    let mut partial = path.as_os_str().to_owned();
-    partial.push(".partial");
-    let partial = Path::new(&partial);
-    let written = std::fs::write(partial, text).and_then(|()| std::fs::rename(partial, path));
-    if written.is_err() {
-        // The first error is the one to tell.
-        let _ = std::fs::remove_file(partial);
-    }
+    let written = if is_special(path) {
+        std::fs::write(path, text)
+    } else {
+        let partial = partial(path);
+        let written = std::fs::write(&partial, text).and_then(|()| std::fs::rename(&partial, path));
+        if written.is_err() {
+            // The first error is the one to tell.
+            let _ = std::fs::remove_file(&partial);
+        }
+        written
+    };
     written.with_context(|| format!("cannot write `{}`", path.display()))
+}
+
+/// Whether this is a pipe or a device: such a thing is written to and never replaced.
+fn is_special(path: &Path) -> bool {
+    path.metadata().is_ok_and(|what| !what.is_file())
+}
+
+fn partial(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".partial");
+    name.into()
 }
 
 /// Makes a folder and those above it.
@@ -26,4 +57,9 @@ pub(crate) fn make_folder(path: &Path) -> anyhow::Result<()> {
 pub(crate) fn print(text: &str) {
     let mut out = std::io::stdout().lock();
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// Prints a line for people, beside the results. Nobody has to read it either.
+pub(crate) fn note(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
 }

@@ -38,6 +38,9 @@ impl Run {
         let drawn = family.draw(self.seed)?;
         let verdict = self.run(&family, &drawn.scenario, &settings)?;
         output::print(&text(&verdict));
+        if let Some(page) = &self.view {
+            output::print(&format!("page {}\n", page.display()));
+        }
         Ok(if verdict.pass { Gate::Passed } else { Gate::Failed })
     }
 
@@ -48,18 +51,21 @@ impl Run {
                 None => run::run(scenario, settings),
             });
         };
-        // The page is drawn from a trace; without a wish for one it is a passing one beside the page.
-        let path = self
-            .trace
-            .clone()
-            .unwrap_or_else(|| page.with_extension("trace.zst"));
-        let verdict = run::run_traced(family, scenario, &self.settings, settings, &path)?;
-        output::write(page, &view::page(&Trace::open(&path)?))?;
-        if self.trace.is_none() {
-            std::fs::remove_file(&path)?;
-        }
-        output::print(&format!("page {}\n", page.display()));
-        Ok(verdict)
+        anyhow::ensure!(
+            self.trace.as_ref() != Some(page),
+            "`--trace` and `--view` both name `{}`: give each its own file",
+            page.display()
+        );
+        output::check(page)?;
+        let trace = match &self.trace {
+            Some(path) => {
+                run::run_traced(family, scenario, &self.settings, settings, path)?;
+                Trace::open(path)?
+            }
+            None => run::run_recorded(family, scenario, &self.settings, settings),
+        };
+        output::write(page, &view::page(&trace))?;
+        Ok(trace.verdict.expect("a trace that was finished has a verdict"))
     }
 }
 

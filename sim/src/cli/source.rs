@@ -10,7 +10,11 @@ pub(crate) const CATALOG: &str = "catalog";
 /// One scenario by path or by catalog name.
 pub(crate) fn family(given: &str, maps: &MapCache) -> anyhow::Result<Family> {
     let path = Path::new(given);
-    if path.is_file() {
+    anyhow::ensure!(
+        !path.is_dir(),
+        "`{given}` is a folder, one scenario is wanted; `corridor sweep {given}` runs all that are in it"
+    );
+    if path.exists() {
         return Ok(Family::load_with(path, maps)?);
     }
     match catalog::find(given) {
@@ -54,7 +58,9 @@ impl Selection {
     fn add(&mut self, family: Result<Family, ScenarioError>, given: String) -> anyhow::Result<()> {
         match family {
             Ok(family) => self.families.push((family, given)),
-            Err(ScenarioError::MapNotFound { hint, .. }) => self.skipped.push(format!("{given}: {hint}")),
+            Err(ScenarioError::SharedMapsAbsent { map, .. }) => {
+                self.skipped.push(format!("{given}: {}", absent(&map)));
+            }
             Err(error) => return Err(error.into()),
         }
         Ok(())
@@ -69,6 +75,11 @@ impl Selection {
             None => Ok(()),
         }
     }
+}
+
+/// Why a scenario on a shared map is skipped.
+pub(crate) fn absent(map: &str) -> String {
+    format!("`{map}` is not on this machine; set CORRIDOR_MAPS to the folder of shared maps")
 }
 
 /// A file itself, or all scenario files of a folder.

@@ -1,7 +1,7 @@
 //! `corridor sweep`: many runs, one report.
 
 use super::{Gate, output, source};
-use clap::Args;
+use clap::{Args, value_parser};
 use corridor_scenarios::MapCache;
 use corridor_sim::report::{Colour, SweepReport, to_json, to_junit, to_table};
 use corridor_sim::run;
@@ -14,20 +14,26 @@ use std::path::{Path, PathBuf};
 /// Failing runs of which `--out` keeps a trace. One shows a cause; hundreds fill a disk.
 const TRACES_KEPT: usize = 20;
 
+/// Runs that one report still holds in memory.
+const MOST_RUNS: i64 = 1_000_000;
+
+/// Threads that any system can start.
+const MOST_THREADS: i64 = 1024;
+
 #[derive(Args)]
 pub(crate) struct Sweep {
     /// Scenario files, folders of them, catalog names, or `catalog` for all of it.
     #[arg(required = true)]
     scenarios: Vec<String>,
     /// How many runs in all; scenarios without random numbers are run once.
-    #[arg(long, default_value_t = 200)]
-    count: usize,
+    #[arg(long, default_value_t = 200, value_parser = value_parser!(u32).range(1..=MOST_RUNS))]
+    count: u32,
     /// The first seed.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Threads; 0: one per core. Does not change results.
-    #[arg(long, default_value_t = 0)]
-    jobs: usize,
+    #[arg(long, default_value_t = 0, value_parser = value_parser!(u16).range(0..=MOST_THREADS))]
+    jobs: u16,
     /// Write a `JUnit` report.
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
@@ -47,16 +53,16 @@ impl Sweep {
         let settings = Settings::with(&self.settings)?;
         let selection = source::select(&self.scenarios, &MapCache::new())?;
         for skipped in &selection.skipped {
-            eprintln!("skipped {skipped}");
+            output::note(&format!("skipped {skipped}"));
         }
         anyhow::ensure!(
             !selection.families.is_empty(),
             "nothing to run: every scenario was skipped"
         );
-        anyhow::ensure!(self.count > 0, "`--count 0`: nothing to run");
-        let plan = Plan::new(selection.families, self.count, self.seed);
+        self.check_outputs()?;
+        let plan = Plan::new(selection.families, self.count as usize, self.seed);
         let bar = progress_bar(plan.jobs().len());
-        let report = sweep(&plan, &settings, &self.settings, self.jobs, &|row| {
+        let report = sweep(&plan, &settings, &self.settings, usize::from(self.jobs), &|row| {
             bar.inc(1);
             if let Some(failure) = row.failure() {
                 bar.println(format!("{} seed {}: {failure}", row.scenario, row.seed));
@@ -72,6 +78,14 @@ impl Sweep {
         })
     }
 
+    /// What cannot be written must be known before hours of work.
+    fn check_outputs(&self) -> anyhow::Result<()> {
+        for path in self.json.iter().chain(&self.junit) {
+            output::check(path)?;
+        }
+        self.out.as_deref().map_or(Ok(()), output::make_folder)
+    }
+
     fn write(&self, plan: &Plan, settings: &Settings, report: &SweepReport) -> anyhow::Result<()> {
         if let Some(path) = &self.json {
             output::write(path, &to_json(report)?)?;
@@ -80,7 +94,6 @@ impl Sweep {
             output::write(path, &to_junit(report)?)?;
         }
         let Some(folder) = &self.out else { return Ok(()) };
-        output::make_folder(folder)?;
         output::write(&folder.join("report.json"), &to_json(report)?)?;
         output::write(&folder.join("report.xml"), &to_junit(report)?)?;
         output::write(&folder.join("report.txt"), &to_table(report, Colour::Never))?;

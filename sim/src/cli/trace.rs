@@ -32,18 +32,25 @@ pub(crate) struct Explain {
     /// The trace.
     trace: PathBuf,
     /// Which moment, seconds since the start of the run.
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     at: f64,
 }
 
 impl Explain {
     pub(crate) fn execute(&self) -> anyhow::Result<Gate> {
+        let trace = Trace::open(&self.trace)?;
+        let name = self.trace.display();
+        let last = trace
+            .ticks
+            .last()
+            .with_context(|| format!("`{name}` holds no tick: the run was ended before its first one"))?;
+        let end = last.frame.time + trace.header.tick;
         anyhow::ensure!(
-            self.at.is_finite(),
-            "`--at {}`: a time in seconds is wanted",
+            (0.0..=end).contains(&self.at),
+            "`--at {}`: `{name}` goes from 0 to {end:.1} s",
             self.at
         );
-        output::print(&explain::tick(&Trace::open(&self.trace)?, self.at));
+        output::print(&explain::tick(&trace, self.at));
         Ok(Gate::Passed)
     }
 }

@@ -26,6 +26,7 @@ pub(crate) fn assessment(trace: &Trace, assessment: Assessment) -> String {
         Assessment::Chosen => "chosen".to_owned(),
         Assessment::Drivable { reach } => format!("drivable for {reach:.1} m, another was preferred"),
         Assessment::NoPath(Rejection::LeavesBound) => "no path: it leaves the bound".to_owned(),
+        Assessment::NoPath(Rejection::LeavesRoad) => "no path: the body leaves the road".to_owned(),
         Assessment::NoPath(Rejection::Curvature) => "no path: it bends more than the steering can".to_owned(),
         Assessment::NoPath(Rejection::Touches(id)) => {
             format!("no path: it touches `{}`", trace.obstacle(id))
@@ -36,17 +37,21 @@ pub(crate) fn assessment(trace: &Trace, assessment: Assessment) -> String {
     }
 }
 
-/// Why the car does not simply drive on.
+/// Why the car does not simply drive on, and where it comes to rest.
 pub(crate) fn stop(trace: &Trace, stop: Stop) -> String {
-    let what = match stop.cause {
+    format!("in {:.1} m: {}", stop.distance, stop_cause(trace, stop.cause))
+}
+
+/// What the car stops, follows or yields for.
+pub(crate) fn stop_cause(trace: &Trace, cause: StopCause) -> String {
+    match cause {
         StopCause::Blocked(id) => format!("blocked by `{}`", trace.obstacle(id)),
-        StopCause::Follow(id) => format!("follow `{}`", trace.obstacle(id)),
-        StopCause::Yield(id) => format!("yield to `{}`", trace.obstacle(id)),
+        StopCause::Follow(id) => format!("follows `{}`", trace.obstacle(id)),
+        StopCause::Yield(id) => format!("yields to `{}`", trace.obstacle(id)),
         StopCause::PullOver => "place to pull over".to_owned(),
         StopCause::Destination => "end of the route".to_owned(),
         StopCause::PathEnd => "end of the path".to_owned(),
-    };
-    format!("{what}, {:.1} m ahead", stop.distance)
+    }
 }
 
 /// What the ego is asked to do.

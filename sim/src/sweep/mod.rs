@@ -5,13 +5,14 @@ pub mod statistics;
 
 pub use plan::{Job, Plan};
 
+use crate::decider;
 use crate::report::{RunResult, SweepReport, SweepRow};
 use crate::run;
 use crate::settings::Settings;
-use crate::verdict::Verdict;
 use corridor_scenarios::{Drawn, Family};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
 
 /// Why a sweep cannot start.
@@ -82,18 +83,24 @@ fn judged(drawn: &Drawn, settings: &Settings) -> (RunResult, BTreeMap<String, u3
     for rejection in &drawn.rejected {
         *rejected.entry(rejection.reason().to_owned()).or_insert(0) += 1;
     }
-    let (verdict, wall_time) = timed(|| run::run(&drawn.scenario, settings));
-    (RunResult::Judged(Box::new(verdict)), rejected, wall_time)
+    // A decider that panics is judged; a panic of anything else breaks its own run and no other.
+    let run = || catch_unwind(AssertUnwindSafe(|| run::run(&drawn.scenario, settings)));
+    let (verdict, wall_time) = timed(run);
+    let result = verdict.map_or_else(
+        |panic| RunResult::Broken(format!("the testbed panicked: {}", decider::said(&*panic))),
+        |verdict| RunResult::Judged(Box::new(verdict)),
+    );
+    (result, rejected, wall_time)
 }
 
 #[expect(
     clippy::disallowed_types,
     reason = "how long a run took stands beside its result, never in it"
 )]
-fn timed(run: impl FnOnce() -> Verdict) -> (Verdict, Duration) {
+fn timed<T>(run: impl FnOnce() -> T) -> (T, Duration) {
     let start = std::time::Instant::now();
-    let verdict = run();
-    (verdict, start.elapsed())
+    let result = run();
+    (result, start.elapsed())
 }
 
 /// The command that runs one job again.

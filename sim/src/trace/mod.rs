@@ -10,6 +10,7 @@
 mod check;
 mod error;
 mod exact;
+pub(crate) mod outline;
 mod reader;
 mod record;
 mod rounded;

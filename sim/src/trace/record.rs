@@ -5,7 +5,7 @@ use corridor_decider::decision::Decision;
 use corridor_decider::frame::{EgoState, Frame, ObstacleId};
 use corridor_decider::geometry::Vec2;
 use corridor_decider::reference_line::ReferenceLine;
-use corridor_decider::road::LaneKind;
+use corridor_decider::road::{BoundaryType, LaneKind};
 use corridor_decider::vehicle::VehicleParams;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -60,8 +60,17 @@ pub struct LaneOutline {
     pub kind: LaneKind,
     /// Left edge, in driving direction.
     pub left: Vec<Vec2>,
-    /// Right edge, in driving direction.
+    /// Right edge, in driving direction; as many points as on the left.
     pub right: Vec<Vec2>,
+    /// Lines on the left edge: the place of the first point of each, and its kind.
+    #[serde(default)]
+    pub left_marks: Vec<(usize, BoundaryType)>,
+    /// Lines on the right edge.
+    #[serde(default)]
+    pub right_marks: Vec<(usize, BoundaryType)>,
+    /// Whether it leads through a junction.
+    #[serde(default)]
+    pub in_junction: bool,
 }
 
 /// One planning tick: what was seen, what was decided, what the car then did.

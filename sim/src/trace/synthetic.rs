@@ -1,7 +1,7 @@
 //! A made-up run to test with: along a bending road past a parked van, behind which somebody waits, with
 //! oncoming traffic. Nothing is decided or simulated here; everything is a formula of time.
 
-use super::record::{Controls, Event, EventKind, Header, LaneOutline, TickRecord};
+use super::record::{Controls, Event, EventKind, Header, TickRecord};
 use super::{FORMAT, Trace};
 use crate::verdict::{Ending, Metric, Verdict};
 use corridor_decider::decision::{
@@ -30,7 +30,7 @@ const STOP_S: f64 = 170.0;
 /// A trace of `ticks` ticks with `obstacles` obstacles, at least three.
 pub(crate) fn trace(ticks: u32, obstacles: u32) -> Trace {
     let lanes = lanes();
-    let outlines = lanes.iter().map(outline).collect();
+    let outlines = lanes.iter().map(super::outline::outline).collect();
     let map = RoadMap::new(lanes, Vec::new()).unwrap();
     let line = Arc::new(ReferenceLine::along(&map, &[LaneId(0)]).unwrap());
     let names = ["van", "oncoming", "someone </script> on foot"].map(str::to_owned);
@@ -59,7 +59,7 @@ pub(crate) fn trace(ticks: u32, obstacles: u32) -> Trace {
 }
 
 /// The road: ours, the oncoming lane, parking bays on the right, sidewalks.
-fn lanes() -> Vec<Lane> {
+pub(crate) fn lanes() -> Vec<Lane> {
     let lane = |name: &str, kind, l: f64, width: f64, reverse: bool| {
         let point = |k: u32| {
             let s = f64::from(k) * 0.5;
@@ -123,23 +123,6 @@ fn road(s: f64, l: f64) -> Pose {
     let (st, ct) = libm::sincos(theta);
     let (x, y) = (1000.0 + s, 500.0 + 15.0 * (1.0 - cos));
     Pose::new(x - l * st, y + l * ct, theta)
-}
-
-fn outline(lane: &Lane) -> LaneOutline {
-    let edge = |side: f64| {
-        let width = |p: &LanePoint| if side > 0.0 { p.left } else { p.right };
-        lane.points
-            .iter()
-            .step_by(4)
-            .map(|p| p.offset(side * width(p)))
-            .collect()
-    };
-    LaneOutline {
-        name: lane.name.clone(),
-        kind: lane.kind,
-        left: edge(1.0),
-        right: edge(-1.0),
-    }
 }
 
 /// Station and speed of the ego at time `t`: 9 m/s, then braking to a stop at [`STOP_S`].

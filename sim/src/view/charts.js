@@ -6,14 +6,14 @@ const series = run.series;
 const rows = [
   {
     name: "speed", unit: "m/s", values: series.speed, floor: 0,
-    more: [{ values: series.cruise_speed, ink: "soft", dash: [5, 3], name: "cruise" }, { values: series.speed_limit, ink: "bad", dash: [2, 3], name: "limit" }],
+    more: [{ values: series.cruise_speed, ink: "soft", dash: [5, 3], name: "cruise" }, { values: series.speed_limit, ink: "surface-edge", dash: [1, 2], name: "limit" }],
     plan: true, note: (v) => `${fixed(v * 3.6, 0)} km/h`,
   },
   { name: "acceleration", unit: "m/s²", values: series.acceleration, limits: series.limits.acceleration },
   { name: "jerk", unit: "m/s³", values: series.jerk, limits: series.limits.jerk },
   {
-    name: "clearance", unit: "m", values: series.clearance, floor: 0, ceiling: 10, limits: [series.limits.clearance],
-    below: true, note: (_, k) => (series.nearest[k] === null ? "" : nameOf(series.nearest[k])),
+    name: "clearance", unit: "m", values: series.clearance, floor: 0, ceiling: series.limits.clearance_horizon, limits: [series.limits.clearance],
+    below: true, absent: () => (ticks[state.k].obstacles.length ? `> ${series.limits.clearance_horizon} m` : "nothing near"), note: (_, k) => (series.nearest[k] === null ? "" : nameOf(series.nearest[k])),
   },
   { name: "tracking error", unit: "m", values: series.tracking, limits: [-series.limits.tracking, series.limits.tracking] },
 ];
@@ -37,7 +37,7 @@ function extent(row) {
     high = Math.max(high, value);
   }
   if (!(high > low)) [low, high] = [Math.min(low, 0), Math.max(low, 0) + 1];
-  if (row.ceiling) high = Math.min(high, row.ceiling);
+  if (row.ceiling) high = all.length ? Math.min(high, row.ceiling) : row.ceiling;
   const room = (high - low) * 0.08;
   return [row.floor === undefined ? low - room : low, high + room];
 }
@@ -123,26 +123,35 @@ function paintPlannedSpeed(context, x, y) {
 const violates = (row, value) => value !== null && row.limits &&
   (row.below ? value < row.limits[0] : value < row.limits[0] || value > row.limits[1]);
 
+/// The numbers of a scale from zero outwards, as many as have room; half a line is left to the next row.
+function paintNumbers(context, { values, decimals }, y, right, top, bottom) {
+  context.textAlign = "right";
+  context.textBaseline = "middle";
+  const taken = [];
+  for (const value of [...values].sort((a, b) => Math.abs(a) - Math.abs(b))) {
+    const at = y(value);
+    if (at < top + 4 || at > bottom + 1 || taken.some((other) => Math.abs(other - at) < 11)) continue;
+    taken.push(at);
+    context.fillText(fixed(value, decimals), right, at);
+  }
+}
+
 function paintRow(context, row, x, top, height, width) {
   const [left, right] = [CHART.left, width - CHART.right];
   const [low, high] = row.extent;
   const y = (value) => top + ((high - value) / (high - low)) * height;
-  const steps = roundSteps(low, high, Math.max(3, height / 22));
+  const steps = roundSteps(low, high, Math.max(3, height / 13));
   context.fillStyle = colour("ground");
   context.fillRect(left, top, right - left, height);
   context.fillStyle = colour("soft");
   context.strokeStyle = colour("soft");
   context.lineWidth = 1;
-  context.textAlign = "right";
-  context.textBaseline = "middle";
   for (const value of steps.values) {
     context.globalAlpha = Math.abs(value) < 1e-9 ? 0.5 : 0.14;
     context.beginPath(); context.moveTo(left, y(value)); context.lineTo(right, y(value)); context.stroke();
-    context.globalAlpha = 1;
-    // Room between the numbers of a row, and half a line to the next row; zero always has its number.
-    const crowded = Math.abs(value) > 1e-9 && Math.abs(y(value) - y(0)) < 11;
-    if (y(value) > top + 4 && y(value) < top + height - 3 && !crowded) context.fillText(fixed(value, steps.decimals), left - 5, y(value));
   }
+  context.globalAlpha = 1;
+  paintNumbers(context, steps, y, left - 5, top, top + height);
   context.save();
   context.beginPath();
   context.rect(left, top, right - left, height);
@@ -165,7 +174,7 @@ function paintReadout(context, row, x, y, top, height, right) {
   context.fillText(row.name, right + 8, top);
   context.fillStyle = colour(bad ? "bad" : "text");
   context.font = `600 ${FONT}`;
-  context.fillText(`${fixed(value)} ${row.unit}`, right + 8, top + 13);
+  context.fillText(value === null && row.absent ? row.absent() : `${fixed(value)} ${row.unit}`, right + 8, top + 13);
   context.font = FONT;
   const note = row.note?.(value, state.k);
   if (note && value !== null && height >= 38) {

@@ -55,6 +55,9 @@ function tickAt(t) {
 }
 
 const obstaclesOf = (tick) => tick.obstacles.map((place) => run.obstacles[place]);
+/// Whether the ego has hit it by the end of the current tick.
+const isHit = (obstacle) => (run.verdict?.collisions ?? []).some((hit) =>
+  hit.obstacle === nameOf(obstacle.id) && hit.time <= ticks[state.k].t + run.tick + 1e-6);
 const nameOf = (id) => run.names[id] ?? `#${id}`;
 const words = (text) => text.replaceAll("_", " ");
 

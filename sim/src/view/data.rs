@@ -1,9 +1,10 @@
 //! Everything that the page gets to draw.
 
-use super::line::{LaneData, LineData};
+use super::lane::{self, LaneData, MarkData};
+use super::line::LineData;
 use super::series::{self, Series};
 use super::thin;
-use super::tick::{Pools, TickData};
+use super::tick::{self, Pools, TickData};
 use crate::explain::words;
 use crate::trace::Trace;
 use crate::verdict::Verdict;
@@ -28,8 +29,11 @@ pub(super) struct Page<'a> {
     /// Names of the obstacles.
     names: &'a [String],
     lanes: Vec<LaneData>,
+    marks: Vec<MarkData>,
     lines: Vec<LineData>,
     ticks: Vec<TickData>,
+    /// The ego after the last tick, `x, y, theta`.
+    end: Option<[f64; 3]>,
     obstacles: Vec<Box<RawValue>>,
     labels: Vec<String>,
     texts: Vec<String>,
@@ -85,12 +89,14 @@ impl<'a> Page<'a> {
                 .iter()
                 .map(|lane| LaneData::new(lane, origin))
                 .collect(),
+            marks: lane::marks(&header.lanes, origin),
             lines: header
                 .lines
                 .iter()
                 .map(|line| LineData::new(line, origin))
                 .collect(),
             ticks,
+            end: (trace.ticks.last()).map(|tick| tick::pose(tick.ego.pose, origin)),
             obstacles: pools.obstacles.into_texts().into_iter().map(raw).collect(),
             labels: pools.labels.into_texts(),
             texts: pools.texts.into_texts(),

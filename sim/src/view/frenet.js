@@ -51,18 +51,12 @@ const shown = (tick) => tick.candidates
   .filter(({ text }) => !state.hidden.has(text));
 
 function paintSurface(context, map, line) {
-  const band = (widths, ink) => {
-    context.beginPath();
-    line.s.forEach((s, k) => context.lineTo(...map(s, widths[0][k])));
-    for (let k = line.last; k >= 0; k--) context.lineTo(...map(line.s[k], -widths[1][k]));
-    context.closePath();
-    context.fillStyle = colour(ink);
-    context.fill();
-  };
-  band(line.road, "stopping");
-  band(line.lane, "driving");
+  const [ox, oy] = map(0, 0);
+  const [ax, ay] = map(1, 1);
+  paintGround(context, groundOnLine(line), new DOMMatrix([ax - ox, 0, 0, ay - oy, ox, oy]), ax - ox, 2);
+  // What the line itself says of its lane and of the road's edge: this is what bounds are made from.
   for (const [side, sign] of [[0, 1], [1, -1]]) {
-    for (const [widths, ink, width] of [[line.lane, "lane-edge", 1.2], [line.road, "surface-edge", 1.6]]) {
+    for (const [widths, ink, width] of [[line.lane, "lane-edge", 1], [line.road, "surface-edge", 1.6]]) {
       context.beginPath();
       line.s.forEach((s, k) => context.lineTo(...map(s, sign * widths[side][k])));
       context.strokeStyle = colour(ink);
@@ -181,15 +175,7 @@ function paintShapes(context, map, tick) {
       context.stroke();
       context.setLineDash([]);
     }
-    trace(context, obstacle.sl, map);
-    context.closePath();
-    context.fillStyle = colour(`${ink}-fill`);
-    context.globalAlpha = 0.85;
-    context.fill();
-    context.globalAlpha = 1;
-    context.strokeStyle = colour(ink);
-    context.lineWidth = 1.3;
-    context.stroke();
+    paintBody(context, map, obstacle, obstacle.sl);
   }
 }
 
@@ -200,7 +186,7 @@ function paintShapeNames(context, map, tick) {
     const [x, y] = map((Math.min(...s) + Math.max(...s)) / 2, (Math.min(...l) + Math.max(...l)) / 2);
     const half = context.measureText(nameOf(obstacle.id)).width / 2;
     if (x - half < GUTTER.left || x + half > GUTTER.left + map.w || y < GUTTER.top || y > GUTTER.top + map.h) continue;
-    if (taken.some(([tx, ty, th]) => Math.abs(tx - x) < half + th && Math.abs(ty - y) < 12)) continue;
+    if (taken.some(([tx, ty, th]) => Math.abs(tx - x) < half + th + 6 && Math.abs(ty - y) < 14)) continue;
     taken.push([x, y, half]);
     label(context, nameOf(obstacle.id), x, y, { align: "center", base: "middle" });
   }
@@ -230,17 +216,23 @@ function paintEgoAndPath(context, map, tick) {
   context.fill();
 }
 
+/// Where the front bumper comes to rest, and for what.
 function paintStop(context, map, tick) {
-  if (tick.stop_at === null || tick.stop === null) return;
-  const x = map(tick.sl[0] + tick.stop_at, 0)[0];
+  if (!tick.stop_at || tick.stop === null) return;
+  const [, s, l] = tick.stop_at;
+  const { front, half_width: half } = run.vehicle;
+  const [x] = map(s + front, l);
   if (x < GUTTER.left || x > GUTTER.left + map.w) return;
   context.strokeStyle = colour("bad");
-  context.lineWidth = 1.5;
+  context.lineWidth = 1;
   context.setLineDash([4, 3]);
   context.beginPath(); context.moveTo(x, GUTTER.top); context.lineTo(x, GUTTER.top + map.h); context.stroke();
   context.setLineDash([]);
-  const right = x > GUTTER.left + map.w - 120;
-  label(context, "stop", x + (right ? -5 : 5), GUTTER.top + 10, { ink: "bad", align: right ? "right" : "left" });
+  context.lineWidth = 3;
+  context.beginPath(); context.moveTo(...map(s + front, l + half + 0.3)); context.lineTo(...map(s + front, l - half - 0.3)); context.stroke();
+  const text = run.texts[tick.stop].replaceAll("`", "");
+  const right = x + context.measureText(text).width + 10 > GUTTER.left + map.w;
+  label(context, text, x + (right ? -5 : 5), GUTTER.top + 10, { ink: "bad", align: right ? "right" : "left" });
 }
 
 function paintFrenet(context, width, height) {

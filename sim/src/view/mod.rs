@@ -6,6 +6,7 @@
 
 mod data;
 mod intern;
+mod lane;
 mod line;
 mod series;
 mod thin;
@@ -17,9 +18,10 @@ const SKELETON: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 
 /// The scripts, in the order in which they build on each other.
-const SCRIPTS: [&str; 7] = [
+const SCRIPTS: [&str; 8] = [
     include_str!("core.js"),
     include_str!("canvas.js"),
+    include_str!("ground.js"),
     include_str!("road.js"),
     include_str!("frenet.js"),
     include_str!("charts.js"),

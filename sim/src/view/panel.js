@@ -18,7 +18,7 @@ function situation(tick) {
     ["speed", `${fixed(v)} m/s (${fixed(v * 3.6, 1)} km/h), ${signed(series.acceleration[state.k])} m/s²`],
     ["wheels", `${signed((steer * 180) / Math.PI, 1)}°`],
     ["command", `${run.texts[tick.command]}, at most ${fixed(series.cruise_speed[state.k], 1)} m/s`],
-    ["stop", tick.stop === null ? "none" : run.texts[tick.stop]],
+    ["stop", tick.stop === null ? "none" : run.texts[tick.stop] + (tick.stop_at ? `, ${fixed(tick.stop_at[0], 1)} m ahead` : "")],
     ["outcome", element("span", { class: tick.normal ? null : "fail" }, run.texts[tick.outcome])],
     ["state", element("span", { class: "mono" }, tick.hash)],
   ]);
@@ -78,22 +78,44 @@ function jump(t) {
   return { click: () => { pause(); seek(tickAt(t)); } };
 }
 
+const isJudged = (metric) => metric.value !== null && (metric.threshold !== null || metric.gate);
+
 function metricRow(metric) {
-  const judged = metric.value !== null && (metric.threshold !== null || metric.gate);
-  const mark = !judged ? "" : metric.pass ? "✓" : "✗";
+  const judged = isJudged(metric);
   const kind = !judged ? null : metric.pass ? "pass" : metric.gate ? "fail" : "warn";
-  const worst = metric.worst_t === null ? "" : `${fixed(metric.worst_t, 1)} s`;
-  const row = element("tr", {
-    class: `metric${metric.worst_t === null ? "" : " jump"}`, on: metric.worst_t === null ? {} : jump(metric.worst_t),
-    title: metric.worst_t === null ? null : "jump to its worst moment",
-  },
-  element("td", { class: kind }, mark),
-  element("td", {}, element(metric.gate ? "b" : "span", {}, metric.name)),
-  element("td", { class: "n" }, metric.value === null ? "–" : fixed(metric.value, Math.abs(metric.value) < 10 ? 3 : 1).replace(/\.?0+$/, "")),
-  element("td", { class: "n" }, metric.threshold === null ? "" : String(metric.threshold)),
-  element("td", { class: "n" }, worst),
-  element("td", {}, metric.worst_obstacle ?? ""));
-  return row;
+  const at = metric.worst_t;
+  return element("tr", { class: `metric${at === null ? "" : " jump"}`, on: at === null ? {} : jump(at), title: at === null ? null : "jump to its worst moment" },
+    element("td", { class: kind }, !judged ? "" : metric.pass ? "✓" : "✗"),
+    element("td", { class: metric.gate ? "gate" : null }, words(metric.name), metric.worst_obstacle === null ? null : element("small", {}, metric.worst_obstacle)),
+    element("td", { class: `n ${judged && !metric.pass ? kind : ""}` }, plain(metric.value)),
+    element("td", { class: "n" }, metric.threshold === null ? "" : plain(metric.threshold)),
+    element("td", { class: "n" }, at === null ? "" : `${fixed(at, 1)} s`));
+}
+
+/// A number as short as it can be said to three decimals, or to one where it is large.
+const plain = (value) => {
+  const text = fixed(value, Math.abs(value) < 10 ? 3 : 1);
+  return text.includes(".") ? text.replace(/\.?0+$/, "") : text;
+};
+
+/// What failed first, then the gates, then the rest; each in its own order.
+function metricTable(metrics) {
+  const heads = [["", ""], ["metric", ""], ["value", "n"], ["limit", "n"], ["worst at", "n"]];
+  const rank = (metric) => (isJudged(metric) && !metric.pass ? 0 : metric.gate ? 1 : 2);
+  const titles = ["not met", "gates", "measured"];
+  const table = element("table", {}, element("tr", {}, ...heads.map(([text, kind]) => element("th", { class: kind }, text))));
+  for (const [k, title] of titles.entries()) {
+    const group = metrics.filter((metric) => rank(metric) === k && metric.value !== null);
+    if (group.length) table.append(element("tr", {}, element("th", { colspan: 5, class: "group" }, title)), ...group.map(metricRow));
+  }
+  return table;
+}
+
+function collisionRow(hit) {
+  return element("div", { class: "event jump", on: jump(hit.time) },
+    element("span", {}, `${fixed(hit.time, 1)} s`), element("span", { class: "fail" }, "collision"),
+    element("span", {}, `with ${hit.obstacle}: ${words(hit.class)}, Δv ${fixed(hit.delta_v, 1)} m/s, ` +
+      `${hit.at_fault ? "the ego's fault" : "not the ego's fault"}, ${hit.avoidable ? "braking would have avoided it" : "braking could not have avoided it"}`));
 }
 
 function buildVerdict() {
@@ -102,14 +124,14 @@ function buildVerdict() {
     byId("verdict").replaceChildren(element("p", { class: "warn" }, "The run has no verdict: its trace ends before its end."));
     return;
   }
-  const heads = [["", ""], ["metric", ""], ["value", "n"], ["limit", "n"], ["worst", "n"], ["", ""]];
+  const idle = verdict.metrics.filter((metric) => metric.value === null).map((metric) => words(metric.name));
   byId("verdict").replaceChildren(
-    element("p", { class: verdict.pass ? "pass" : "fail", style: "margin:0 0 6px" }, verdict.summary),
-    element("table", {}, element("tr", {}, ...heads.map(([text, kind]) => element("th", { class: kind }, text))), ...verdict.metrics.map(metricRow)),
-    ...verdict.collisions.map((c) => element("div", { class: "event jump", on: jump(c.time) },
-      element("span", {}, `${fixed(c.time, 1)} s`), element("span", { class: "fail" }, "collision"),
-      element("span", {}, `with ${c.obstacle}: ${words(c.class)}, Δv ${fixed(c.delta_v, 1)} m/s, ${c.at_fault ? "the ego's fault" : "not the ego's fault"}`))),
-    element("p", { style: "margin:6px 0 0", class: "mono" }, `${verdict.outcomes.map(([name, count]) => `${words(name)} ${count}`).join(", ")} · ${verdict.digest}`),
+    element("p", { class: verdict.pass ? "pass" : "fail" }, verdict.summary),
+    ...verdict.collisions.map(collisionRow),
+    metricTable(verdict.metrics),
+    ...(idle.length ? [element("p", { class: "soft" }, `no occasion to measure: ${idle.join(", ")}`)] : []),
+    element("p", { class: "soft" }, `ticks: ${verdict.outcomes.map(([name, count]) => `${words(name)} ${count}`).join(", ")}`),
+    element("p", { class: "mono" }, verdict.digest),
   );
 }
 

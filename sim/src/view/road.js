@@ -31,74 +31,11 @@ function roadMap(width, height) {
   return map;
 }
 
-const LANE_COLOURS = {
-  driving: "driving", ramp: "ramp", stop: "stopping", shoulder: "stopping", parking: "stopping",
-  sidewalk: "sidewalk", biking: "biking", median: "median", restricted: "restricted",
-};
-
-// The same polygon in every tick: one path per lane, drawn through the canvas' own transform.
-const lanePaths = run.lanes.map((lane) => {
-  const path = new Path2D();
-  const points = [];
-  for (let k = 0; k < lane.left.length; k += 2) points.push([lane.left[k], lane.left[k + 1]]);
-  for (let k = lane.right.length - 2; k >= 0; k -= 2) points.push([lane.right[k], lane.right[k + 1]]);
-  points.forEach(([x, y], k) => (k ? path.lineTo(x, y) : path.moveTo(x, y)));
-  path.closePath();
-  const edges = new Path2D();
-  for (const side of [lane.left, lane.right]) {
-    for (let k = 0; k < side.length; k += 2) (k ? edges.lineTo(side[k], side[k + 1]) : edges.moveTo(side[k], side[k + 1]));
-  }
-  return { kind: lane.kind, path, edges };
-});
-
-/// Lets the canvas do the turning and scaling; widths are then in metres.
-function inMetres(context, map, action) {
-  context.save();
+function paintRoadGround(context, map) {
   const [ox, oy] = map(0, 0);
   const [ax, ay] = map(1, 0);
-  context.transform(ax - ox, ay - oy, ay - oy, -(ax - ox), ox, oy);
-  action(1 / map.scale);
-  context.restore();
-}
-
-function paintLanes(context, map) {
-  inMetres(context, map, (pixel) => {
-    // Roads that carry wheels lie on top of what does not.
-    const rank = (lane) => (LANE_COLOURS[lane.kind] === "driving" ? 2 : LANE_COLOURS[lane.kind] ? 1 : 0);
-    for (const lane of [...lanePaths].sort((a, b) => rank(a) - rank(b))) {
-      context.fillStyle = colour(LANE_COLOURS[lane.kind] ?? "otherlane");
-      context.fill(lane.path);
-    }
-    context.lineWidth = pixel;
-    context.strokeStyle = colour("lane-edge");
-    for (const lane of lanePaths) context.stroke(lane.edges);
-  });
-}
-
-const MARKS = {
-  DOTTED_YELLOW: ["yellow-mark", [3, 3]], DOTTED_WHITE: ["white-mark", [3, 3]], SOLID_YELLOW: ["yellow-mark", []],
-  SOLID_WHITE: ["white-mark", []], DOUBLE_YELLOW: ["yellow-mark", []], CURB: ["curb", []],
-};
-
-function paintMarks(context, map) {
-  for (const line of new Set(ticks[state.k] ? [lineCaches[ticks[state.k].line], ...lineCaches] : lineCaches)) {
-    for (const mark of line.marks) {
-      const [ink, dash] = MARKS[mark.kind] ?? [null];
-      if (!ink) continue;
-      context.strokeStyle = colour(ink);
-      const width = Math.max(1.2, 0.14 * map.scale);
-      context.setLineDash(dash.map((length) => length * map.scale));
-      trace(context, mark.at, map);
-      context.lineWidth = mark.kind === "DOUBLE_YELLOW" ? width * 3 : width;
-      context.stroke();
-      if (mark.kind === "DOUBLE_YELLOW") {
-        context.strokeStyle = colour("driving");
-        context.lineWidth = width;
-        context.stroke();
-      }
-    }
-  }
-  context.setLineDash([]);
+  const matrix = new DOMMatrix([ax - ox, ay - oy, ay - oy, -(ax - ox), ox, oy]);
+  paintGround(context, groundInWorld, matrix, map.scale, Math.max(1.2, 0.14 * map.scale));
 }
 
 function paintLine(context, map, line) {
@@ -179,6 +116,30 @@ function paintPlan(context, map, tick) {
   context.stroke();
 }
 
+/// Where the front bumper comes to rest.
+function paintStopBar(context, map, tick) {
+  if (!tick.stop_at) return;
+  const [, , , x, y, theta] = tick.stop_at;
+  const { front, half_width: half } = run.vehicle;
+  const [sin, cos] = [Math.sin(theta), Math.cos(theta)];
+  context.strokeStyle = colour("bad");
+  context.lineWidth = 3;
+  context.beginPath();
+  for (const l of [half + 0.3, -half - 0.3]) context.lineTo(...map(x + front * cos - l * sin, y + front * sin + l * cos));
+  context.stroke();
+}
+
+/// The ego at the end of the last tick: there it met what it hit.
+function paintFinish(context, map) {
+  if (!run.end) return;
+  context.strokeStyle = colour("ego");
+  context.lineWidth = 1.2;
+  context.setLineDash([3, 2]);
+  egoOutline(context, map, ...run.end);
+  context.stroke();
+  context.setLineDash([]);
+}
+
 function paintEgo(context, map, tick) {
   const [x, y, theta, steer] = tick.ego;
   egoOutline(context, map, x, y, theta);
@@ -241,15 +202,23 @@ function paintPrediction(context, map, obstacle) {
   context.globalAlpha = 1;
 }
 
-function paintObstacle(context, map, obstacle) {
+/// The footprint; with a red rim once the ego has hit it.
+function paintBody(context, map, obstacle, numbers) {
   const ink = obstacleColour(obstacle);
-  trace(context, obstacle.xy, map);
+  trace(context, numbers, map);
   context.closePath();
   context.fillStyle = colour(`${ink}-fill`);
   context.fill();
-  context.strokeStyle = colour(ink);
-  context.lineWidth = 1.3;
+  const hit = isHit(obstacle);
+  context.strokeStyle = colour(hit ? "bad" : ink);
+  context.lineWidth = hit ? 3 : 1.3;
   context.stroke();
+}
+
+function paintObstacle(context, map, obstacle) {
+  paintBody(context, map, obstacle, obstacle.xy);
+  context.strokeStyle = colour(obstacleColour(obstacle));
+  context.lineWidth = 1.3;
   const [vx, vy] = obstacle.speed;
   if (Math.hypot(vx, vy) > 0.1) {
     // One second of driving.
@@ -280,8 +249,8 @@ function paintNames(context, map, tick, width, height) {
     const y = Math.min(...corners.map((c) => c[1])) - 4;
     if (x < 0 || x > width || y < 8 || y > height + 20) continue;
     const name = nameOf(obstacle.id);
-    const half = context.measureText(name).width / 2 + 2;
-    const box = [x - half, y - 11, x + half, y + 2];
+    const half = context.measureText(name).width / 2 + 4;
+    const box = [x - half, y - 13, x + half, y + 4];
     if (taken.some((t) => box[0] < t[2] && box[2] > t[0] && box[1] < t[3] && box[3] > t[1])) continue;
     taken.push(box);
     label(context, name, x, y, { align: "center", ink: obstacleColour(obstacle) });
@@ -342,8 +311,7 @@ function paintRoad(context, width, height) {
   if (!ticks.length) return;
   const tick = ticks[state.k];
   const map = roadMap(width, height);
-  paintLanes(context, map);
-  paintMarks(context, map);
+  paintRoadGround(context, map);
   paintLine(context, map, lineCaches[tick.line]);
   paintCorridor(context, map, tick);
   paintTrail(context, map);
@@ -352,7 +320,9 @@ function paintRoad(context, width, height) {
   if (state.predictions) for (const obstacle of obstacles) paintPrediction(context, map, obstacle);
   for (const obstacle of obstacles) paintObstacle(context, map, obstacle);
   paintPlan(context, map, tick);
+  paintStopBar(context, map, tick);
   paintEgo(context, map, tick);
+  if (state.k === ticks.length - 1) paintFinish(context, map);
   paintNames(context, map, tick, width, height);
   paintScaleBar(context, map, width, height);
 }

@@ -2,6 +2,7 @@
 
 use super::thin;
 use crate::trace::{TickRecord, Trace};
+use crate::world::CLEARANCE_HORIZON;
 use corridor_decider::decision::PathPoint;
 use corridor_decider::geometry::{Vec2, cross};
 use corridor_decider::reference_line::LineQuery;
@@ -41,6 +42,8 @@ struct Limits {
     acceleration: [f64; 2],
     jerk: [f64; 2],
     clearance: f64,
+    /// Distance up to which clearance is measured, m.
+    clearance_horizon: f64,
     tracking: f64,
 }
 
@@ -70,6 +73,7 @@ impl Series {
                 acceleration: COMFORTABLE_ACCELERATION,
                 jerk: COMFORTABLE_JERK,
                 clearance: NEAR,
+                clearance_horizon: CLEARANCE_HORIZON,
                 tracking: TRACKING_TOLERANCE,
             },
         }

@@ -51,7 +51,7 @@ pub(super) fn keep(points: &[Vec2], forced: impl Fn(usize) -> bool) -> Vec<bool>
 }
 
 /// Distance of `point` from the segment `a`–`b`.
-fn from_chord(a: Vec2, b: Vec2, point: Vec2) -> f64 {
+pub(super) fn from_chord(a: Vec2, b: Vec2, point: Vec2) -> f64 {
     let along = b - a;
     let length_squared = along.norm_squared();
     let t = if length_squared > 0.0 {

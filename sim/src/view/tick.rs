@@ -42,9 +42,10 @@ pub(super) struct TickData {
     path: Vec<f64>,
     /// `t, x, y, theta, v, …`
     plan: Vec<f64>,
+    /// What it slows down for.
     stop: Option<usize>,
-    /// Arc length along the path to the stop, m.
-    stop_at: Option<f64>,
+    /// The rear axle there: arc length along the path, then `s, l, x, y, theta`.
+    stop_at: Option<[f64; 6]>,
     outcome: usize,
     normal: bool,
     /// `x, y, theta`
@@ -114,8 +115,8 @@ impl TickData {
             plan: plan(&decision.trajectory, origin),
             stop: decision
                 .stop
-                .map(|stop| pools.texts.place(words::stop(trace, stop))),
-            stop_at: stop.map(|stop| thin::milli(stop.distance)),
+                .map(|stop| pools.texts.place(words::stop_cause(trace, stop.cause))),
+            stop_at: stop.and_then(|stop| along(&decision.path, stop.distance, origin)),
             outcome: pools.texts.place(words::outcome(decision.outcome).to_owned()),
             normal: decision.outcome == corridor_decider::decision::Outcome::Normal,
             pull_over: decision.pull_over.map(|target| {
@@ -134,7 +135,7 @@ fn fine(value: f64) -> f64 {
     (value * 1e4).round() / 1e4 + 0.0
 }
 
-fn pose(pose: Pose, origin: Vec2) -> [f64; 3] {
+pub(super) fn pose(pose: Pose, origin: Vec2) -> [f64; 3] {
     [
         thin::milli(pose.x - origin.x),
         thin::milli(pose.y - origin.y),
@@ -212,6 +213,23 @@ fn path(points: &[PathPoint], origin: Vec2) -> Vec<f64> {
             [thin::milli(points[k].s), thin::offset(points[k].l), x, y]
         })
         .collect()
+}
+
+/// A place on the path: `distance, s, l, x, y, theta`. Before its start and beyond its end it goes on straight.
+fn along(path: &[PathPoint], distance: f64, origin: Vec2) -> Option<[f64; 6]> {
+    let above = path.partition_point(|p| p.distance <= distance);
+    let above = above.min(path.len().saturating_sub(1)).max(1);
+    let (a, b) = (path.get(above - 1)?, path.get(above)?);
+    let share = (distance - a.distance) / (b.distance - a.distance);
+    let mix = |from: f64, to: f64| thin::milli(from + (to - from) * share);
+    Some([
+        thin::milli(distance),
+        mix(a.s, b.s),
+        thin::offset(mix(a.l, b.l)),
+        mix(a.pose.x - origin.x, b.pose.x - origin.x),
+        mix(a.pose.y - origin.y, b.pose.y - origin.y),
+        fine(a.pose.theta),
+    ])
 }
 
 fn plan(points: &[TrajectoryPoint], origin: Vec2) -> Vec<f64> {

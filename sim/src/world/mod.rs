@@ -69,6 +69,7 @@ pub struct World {
     ego_outline: Outline,
     proximity: Proximity,
     touched: Vec<ObstacleId>,
+    pushed: Vec<ObstacleId>,
     vehicle: VehicleParams,
     dynamics: DynamicsParams,
     actuators: Actuators,
@@ -109,6 +110,7 @@ impl World {
             ego_outline: Outline::new(&vehicle.footprint(Pose::new(0.0, 0.0, 0.0)), start.pose),
             proximity: Proximity::default(),
             touched: Vec::new(),
+            pushed: Vec::new(),
             vehicle,
             dynamics: config.dynamics,
             actuators: Actuators::new(),
@@ -149,6 +151,7 @@ impl World {
     /// One physics step: the actuators follow `controls`, the obstacles named in `moved` go to their new
     /// poses, the ego moves by its tyres and by what hits it.
     pub fn step(&mut self, controls: Controls, moved: &[BodyPose]) {
+        self.pushed.clear();
         self.actuators
             .advance(controls, &self.vehicle, &self.dynamics, self.dt);
         self.move_obstacles(moved);
@@ -191,6 +194,18 @@ impl World {
     /// Obstacles whose outline overlaps the ego's now, in ascending order. Touching is not overlapping.
     pub fn overlaps(&self) -> impl Iterator<Item = ObstacleId> + '_ {
         self.proximity.overlaps.iter().copied()
+    }
+
+    /// Obstacles that hit the ego in this step: their outlines overlap, or would have by the end of the step
+    /// had the engine not pushed the bodies apart. Without the latter a body that shoves the ego would never
+    /// count, because it never gets inside.
+    pub fn hits(&self) -> impl Iterator<Item = ObstacleId> + '_ {
+        let pushed = self
+            .pushed
+            .iter()
+            .copied()
+            .filter(|id| !self.proximity.overlaps.contains(id));
+        self.overlaps().chain(pushed)
     }
 
     /// Obstacles that the engine's contact solver has pushed the ego away from so far. Speculative, up to
@@ -327,10 +342,14 @@ impl World {
             };
             let parent = self.physics.colliders.get(other).and_then(Collider::parent);
             let place = self.obstacle_bodies.iter().position(|b| Some(b.handle) == parent);
-            if let Some(obstacle) = place.map(|place| self.obstacles[place].id)
-                && !self.touched.contains(&obstacle)
-            {
+            let Some(obstacle) = place.map(|place| self.obstacles[place].id) else {
+                continue;
+            };
+            if !self.touched.contains(&obstacle) {
                 self.touched.push(obstacle);
+            }
+            if pair.total_impulse_magnitude() > 0.0 {
+                self.pushed.push(obstacle);
             }
         }
     }

@@ -4,7 +4,8 @@
 //! between two of them.
 
 use super::Path;
-use super::profile::{Corridor, Profile};
+use super::corridor::Corridor;
+use super::profile::Profile;
 use super::table::{LineTable, Row};
 use crate::decision::{PathPoint, Rejection};
 use crate::frame::ObstacleId;
@@ -13,6 +14,12 @@ use crate::tasks::scene::{Body, Scene};
 
 /// Length at the end of a path that the original leaves unchecked, m.
 const UNCHECKED_TAIL: f64 = 10.5;
+
+/// How far a corner may stand over the road's edge, m: half of what counts as off the road.
+const ROAD_TOLERANCE: f64 = 0.15;
+
+/// Least factor `1 − κ l` that is divided by.
+const LEAST_STRETCH: f64 = 0.1;
 
 /// Curvature above the limit that a path may start with, 1/m: what the car does now it does.
 const START_EXCESS: f64 = 0.02;
@@ -33,7 +40,7 @@ pub(super) fn assess(
     if !profile.l.iter().enumerate().all(inside) {
         return Err(Rejection::LeavesBound);
     }
-    let mut points = points(table, profile);
+    let points = points(table, profile);
     let limit = scene.vehicle.max_kappa() * scene.config.path.curvature_share;
     let bends = |p: &PathPoint| {
         let excess = START_EXCESS * (1.0 - p.distance / START_LENGTH).max(0.0);
@@ -42,6 +49,32 @@ pub(super) fn assess(
     if points.iter().skip(1).any(bends) {
         return Err(Rejection::Curvature);
     }
+    if leaves_road(scene, table, profile) {
+        return Err(Rejection::LeavesRoad);
+    }
+    until_contact(scene, points)
+}
+
+/// Whether a corner of the body leaves the road surface where it has not been off it from the start.
+fn leaves_road(scene: &Scene, table: &LineTable, profile: &Profile) -> bool {
+    let vehicle = scene.vehicle;
+    let overhang = |(row, l): (&Row, &[f64; 4])| {
+        let slope = l[1] / (1.0 - row.kappa * l[0]).max(LEAST_STRETCH);
+        let front = l[0] + slope * vehicle.front_edge_to_center;
+        let rear = l[0] - slope * vehicle.back_edge_to_center;
+        let (left, right) = (
+            front.max(rear) + vehicle.half_width(),
+            front.min(rear) - vehicle.half_width(),
+        );
+        (left - row.road.0).max(-right - row.road.1)
+    };
+    let mut overhangs = table.rows.iter().zip(&profile.l).map(overhang);
+    let allowed = overhangs.next().unwrap_or(0.0).max(0.0) + ROAD_TOLERANCE;
+    overhangs.any(|overhang| overhang > allowed)
+}
+
+/// A path as far as the body touches nothing.
+pub(super) fn until_contact(scene: &Scene, mut points: Vec<PathPoint>) -> Result<Path, Rejection> {
     let contact = first_contact(scene, &points);
     if let Some((k, id)) = contact {
         points.truncate(k);

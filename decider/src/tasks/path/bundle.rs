@@ -3,7 +3,8 @@
 //! The original lattice planner samples ends at fixed offsets of the line; here they are fractions of the
 //! corridor, and every candidate is clamped to the corridor point by point.
 
-use super::profile::{Corridor, Profile};
+use super::corridor::Corridor;
+use super::profile::Profile;
 use super::table::STEP;
 use crate::geometry::Quintic;
 
@@ -24,8 +25,9 @@ pub(super) fn sample(corridor: &Corridor) -> Vec<Profile> {
             clippy::cast_sign_loss,
             reason = "a whole number below 100"
         )]
-        let (lo, hi) = corridor.limits[(distance / STEP) as usize];
-        let inside = corridor.target_l.clamp(lo, hi);
+        let k = (distance / STEP) as usize;
+        let (lo, hi) = corridor.limits[k];
+        let inside = corridor.pulls[k].l.clamp(lo, hi);
         let ends = FRACTIONS.map(|fraction| lo + (hi - lo) * fraction);
         for end in ends.into_iter().chain([inside]) {
             profiles.push(profile(corridor, end, distance));

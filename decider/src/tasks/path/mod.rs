@@ -6,17 +6,21 @@
 
 mod assess;
 mod bundle;
+mod corridor;
 mod profile;
+mod reuse;
 mod smooth;
 mod table;
 
+pub use reuse::reuse;
 pub use table::LineTable;
 
 use super::path_bounds::PathBound;
 use super::scene::Scene;
 use crate::decision::{PathPoint, Rejection};
 use crate::frame::ObstacleId;
-use profile::{Corridor, Profile};
+use corridor::Corridor;
+use profile::Profile;
 use serde::{Deserialize, Serialize};
 
 /// Settings of the path layer.
@@ -131,7 +135,7 @@ fn best_of_bundle(
 }
 
 /// A path that leads to the end of a blocked bound is blocked by what blocks the bound.
-fn finish(mut path: Path, bound: &PathBound) -> Path {
+pub(crate) fn finish(mut path: Path, bound: &PathBound) -> Path {
     path.blocked_by = path.blocked_by.or(bound.blocked_by);
     path
 }

@@ -1,11 +1,12 @@
 //! The smoothest offset profile inside a corridor.
 //!
-//! Minimises `Σ (l − l_target)² + λ² l'² + λ⁴ l''² + λ⁶ l'''²` over offsets a metre apart, derivatives by
+//! Minimises `Σ w (l − l_wanted)² + λ² l'² + λ⁴ l''² + λ⁶ l'''²` over offsets a metre apart, derivatives by
 //! forward differences that begin two metres behind the ego, where the start state says it came from. Limits enter as stiff springs at
 //! the stations that press against them; which ones do is found by Newton's method for the semismooth problem
 //! (an active-set iteration). Each step is one banded Cholesky factorisation, linear in the number of stations.
 
-use super::profile::{Corridor, Profile};
+use super::corridor::Corridor;
+use super::profile::Profile;
 use super::table::STEP;
 use crate::decision::Rejection;
 
@@ -102,8 +103,9 @@ fn normal_equations(corridor: &Corridor, past: [f64; 3]) -> (Vec<Row>, Vec<f64>)
         (&[1.0, -2.0, 1.0], square * square),
         (&[-1.0, 3.0, -3.0, 1.0], square * square * square),
     ];
-    let mut matrix = vec![[0.0, 0.0, 0.0, 1.0]; free];
-    let mut rhs = vec![corridor.target_l; free];
+    let pulls = &corridor.pulls[1..];
+    let mut matrix: Vec<Row> = pulls.iter().map(|pull| [0.0, 0.0, 0.0, pull.weight]).collect();
+    let mut rhs: Vec<f64> = pulls.iter().map(|pull| pull.weight * pull.l).collect();
     for (stencil, weight) in differences {
         for first in past.len() + 1 - stencil.len()..=past.len() + free - stencil.len() {
             for (a, ca) in stencil.iter().enumerate() {
@@ -152,17 +154,17 @@ fn cholesky_solve(matrix: &mut [Row], rhs: &mut [f64]) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::corridor::Pull;
     use super::*;
     use nalgebra::{DMatrix, DVector};
 
     fn corridor(limits: Vec<(f64, f64)>, start: [f64; 3]) -> Corridor {
-        let tolerance = vec![0.03; limits.len()];
         Corridor {
+            pulls: vec![Pull { l: 0.0, weight: 1.0 }; limits.len()],
+            tolerance: vec![0.03; limits.len()],
             limits,
-            target_l: 0.0,
             start,
             smoothing_length: 6.0,
-            tolerance,
         }
     }
 

@@ -6,9 +6,6 @@ use crate::reference_line::{LineQuery, ReferenceLine};
 /// Distance between the points of a path, m.
 pub(super) const STEP: f64 = 1.0;
 
-/// How far ahead paths lead, m: the horizon of the path bounds.
-const HORIZON: f64 = 100.0;
-
 /// One point of the line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
@@ -18,6 +15,8 @@ pub(super) struct Row {
     pub theta: f64,
     pub kappa: f64,
     pub dkappa: f64,
+    /// To the (left, right) edges of the road, m.
+    pub road: (f64, f64),
 }
 
 /// The line at `s0`, `s0 + 1`, …
@@ -27,10 +26,10 @@ pub struct LineTable {
 }
 
 impl LineTable {
-    /// Samples the line from `s0` to the end of the horizon or of the line.
-    pub fn new(line: &ReferenceLine, s0: f64) -> Self {
+    /// Samples the line from `s0` to `end_s` or to its end.
+    pub fn new(line: &ReferenceLine, s0: f64, end_s: f64) -> Self {
         let mut rows: Vec<Row> = Vec::with_capacity(128);
-        let end = (s0 + HORIZON).min(line.length());
+        let end = end_s.min(line.length());
         let mut s = s0;
         while s <= end {
             let at = line.point(s);
@@ -42,6 +41,7 @@ impl LineTable {
                 theta: at.theta,
                 kappa: at.kappa,
                 dkappa: 0.0,
+                road: line.road_width(s).unwrap_or((f64::MAX, f64::MAX)),
             });
             s += STEP;
         }

@@ -105,9 +105,15 @@ pub struct Quirks {
     pub lane_change_discards_fallback: bool,
     /// 13: a bound that does not hold the ego is an error of the whole task.
     pub asserts_ego_inside: bool,
+    /// Not in the list: beside a pull-over bound there is only the fallback, whatever becomes of its path.
+    pub pull_over_stands_alone: bool,
     /// 15: beside the lane line a pull-over leaves no room for half the car, and its side shifts with the
     /// line's offset.
     pub pull_over_overhang: bool,
+    /// Not in the list: the road's edge is looked up at the rear axle only, not under the whole body.
+    pub road_edge_at_axle: bool,
+    /// Not in the list: a place to pull over may be one that the car cannot turn in to.
+    pub unreachable_place: bool,
     /// 16: the distance to the road edge is taken from the size of `l`, whatever its sign.
     pub unsigned_road_edge: bool,
     /// 17: only the first station of a place to pull over is checked for junctions.
@@ -139,7 +145,10 @@ impl Quirks {
             silent_blocker: true,
             lane_change_discards_fallback: true,
             asserts_ego_inside: true,
+            pull_over_stands_alone: true,
             pull_over_overhang: true,
+            road_edge_at_axle: true,
+            unreachable_place: true,
             unsigned_road_edge: true,
             junction_at_anchor_only: true,
             unchecked_road_width: true,

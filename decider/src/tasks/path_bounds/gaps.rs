@@ -115,12 +115,12 @@ pub(super) fn limit(
         });
         if gaps.len() == start {
             passage.is_blocked = true;
-            passage.blocked_by = if input.config.quirks.arbitrary_blocker {
+            let blocker = if input.config.quirks.arbitrary_blocker {
                 active.beside.iter().map(|obstacle| obstacle.id).min()
             } else {
                 closer(&active.beside, &gaps[before], &bound[first])
-            }
-            .filter(|id| *id != ObstacleId::ANONYMOUS);
+            };
+            passage.blocked_by = blocker.filter(|id| *id != ObstacleId::ANONYMOUS);
             bound.truncate(first);
             break;
         }
@@ -139,38 +139,46 @@ fn forbidden_intervals(
     beside: &[Beside],
     widening: Widening,
 ) -> Vec<Forbidden> {
-    let half_width = input.vehicle.half_width();
-    let forbidden = |obstacle: &Beside| {
-        // Beside the ego the buffer gives way rather than demand a jump, and the side is chosen.
-        let is_beside = obstacle.first == 0;
-        let buffer = |room: f64| {
-            let kept = if is_beside {
-                room - half_width - EGO_SLACK
-            } else {
-                widening.lateral
-            };
-            kept.max(widening.hard.min(widening.lateral))
-                .min(widening.lateral)
-        };
-        let (room_left, room_right) = (input.ego.l - obstacle.left, obstacle.right - input.ego.l);
-        let only = match (room_left >= 0.0, room_right >= 0.0) {
-            (true, _) => Some(Side::Left),
-            (_, true) => Some(Side::Right),
-            _ => None,
-        };
-        Forbidden {
-            id: obstacle.id,
-            start_s: obstacle.start_s,
-            first: obstacle.first,
-            past: obstacle.past,
-            l_min: obstacle.right - half_width - buffer(room_right),
-            l_max: obstacle.left + half_width + buffer(room_left),
-            remembered: obstacle.remembered,
-            only: only.filter(|_| is_beside),
-        }
-    };
     let reached = beside.iter().take_while(|obstacle| obstacle.first < stations);
-    reached.map(forbidden).filter(|o| o.l_min < o.l_max).collect()
+    reached
+        .filter_map(|obstacle| forbidden_by(obstacle, input, widening))
+        .collect()
+}
+
+/// What one obstacle forbids, if that is anything.
+fn forbidden_by(obstacle: &Beside, input: &Input, widening: Widening) -> Option<Forbidden> {
+    let half_width = input.vehicle.half_width();
+    // Beside the ego the buffer gives way rather than demand a jump, and the side is chosen.
+    let is_beside = obstacle.first == 0;
+    let buffer = |room: f64| {
+        let kept = if is_beside {
+            room - half_width - EGO_SLACK
+        } else {
+            widening.lateral
+        };
+        kept.max(widening.hard.min(widening.lateral))
+            .min(widening.lateral)
+    };
+    let right = obstacle.start_l.min(obstacle.end_l);
+    let left = obstacle.start_l.max(obstacle.end_l);
+    let (room_left, room_right) = (input.ego.l - left, right - input.ego.l);
+    let only = match (room_left >= 0.0, room_right >= 0.0) {
+        (true, _) => Some(Side::Left),
+        (_, true) => Some(Side::Right),
+        _ => None,
+    };
+    let l_min = right - half_width - buffer(room_right);
+    let l_max = left + half_width + buffer(room_left);
+    (l_min < l_max).then_some(Forbidden {
+        id: obstacle.id,
+        start_s: obstacle.start_s,
+        first: obstacle.first,
+        past: obstacle.past,
+        l_min,
+        l_max,
+        remembered: obstacle.remembered,
+        only: only.filter(|_| is_beside),
+    })
 }
 
 /// The obstacles beside one station, moved along the bound.
@@ -295,8 +303,11 @@ impl Entry {
         };
         if self.is_first {
             // The ego cannot jump across what it is beside.
-            let jumps =
-                |obstacle: &Forbidden| (obstacle.only).is_some_and(|only| only != obstacle.side_of(right.l));
+            let jumps = |obstacle: &Forbidden| {
+                obstacle
+                    .only
+                    .is_some_and(|only| only != obstacle.side_of(right.l))
+            };
             return (!active.iter().any(jumps)).then(|| entered(self.ego_l, 0.0, 0));
         }
         let touching = |gap: &Gap| gap.right.l <= left.l && right.l <= gap.left.l;
@@ -336,10 +347,8 @@ fn closer(active: &[Forbidden], before: &[Gap], point: &BoundPoint) -> Option<Ob
     let in_the_bound = |obstacle: &&Forbidden| stands_in(obstacle, point.l_min, point.l_max);
     let nearest = |a: &&Forbidden, b: &&Forbidden| a.start_s.total_cmp(&b.start_s).then(a.id.cmp(&b.id));
     let latest = |a: &&Forbidden, b: &&Forbidden| a.first.cmp(&b.first).then(nearest(b, a));
-    active
-        .iter()
-        .filter(in_a_gap)
-        .min_by(nearest)
+    let named = active.iter().filter(in_a_gap).min_by(nearest);
+    named
         .or_else(|| active.iter().filter(in_the_bound).max_by(latest))
         .map(|obstacle| obstacle.id)
 }

@@ -133,7 +133,9 @@ pub fn decide<L: LineQuery + ?Sized>(
                     },
                     blocker,
                 );
-                return Ok(result);
+                if input.config.quirks.pull_over_stands_alone {
+                    return Ok(result);
+                }
             }
             Err(refusal) => result.refusal = Some(refusal),
         }

@@ -25,9 +25,9 @@ pub(super) struct Beside {
     pub past: usize,
     /// Its near edge, m.
     pub start_s: f64,
-    /// Its right and its left edge, m.
-    pub right: f64,
-    pub left: f64,
+    /// Its right and left edge, m.
+    pub start_l: f64,
+    pub end_l: f64,
     /// The side on which it was passed in the tick before.
     pub remembered: Option<Side>,
 }
@@ -58,8 +58,8 @@ pub(super) fn beside(stations: &[Station], input: &Input, remembered: &[(Obstacl
                 first,
                 past,
                 start_s: obstacle.start_s,
-                right: obstacle.start_l.min(obstacle.end_l),
-                left: obstacle.start_l.max(obstacle.end_l),
+                start_l: obstacle.start_l,
+                end_l: obstacle.end_l,
                 remembered: before.map(|(_, side)| *side),
             });
         }
@@ -67,7 +67,7 @@ pub(super) fn beside(stations: &[Station], input: &Input, remembered: &[(Obstacl
     all.sort_by(|a, b| {
         a.first
             .cmp(&b.first)
-            .then(a.right.total_cmp(&b.right))
+            .then(a.start_l.total_cmp(&b.start_l))
             .then(a.id.cmp(&b.id))
     });
     all

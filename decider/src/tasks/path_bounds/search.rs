@@ -17,6 +17,15 @@ const EXTRA_WIDTH_COEFF: f64 = 0.25;
 /// How far around a place no junction may be, m.
 const JUNCTION_RADIUS: f64 = 1.0;
 
+/// Share of the tightest turn that turning in to a place may take.
+const TURN_IN_SHARE: f64 = 0.55;
+
+/// How far before its place a car stands straight, m.
+const STRAIGHTEN: f64 = 2.0;
+
+/// Way before the place that is looked at for turning in, m: enough for any lane width.
+const TURN_IN_LENGTH: f64 = 20.0;
+
 /// A place that was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Found {
@@ -84,6 +93,9 @@ pub(super) fn place<L: LineQuery + ?Sized>(
             (anchor, past)
         };
         let index = stop_index(input, start, end);
+        if !config.quirks.unreachable_place && !is_reachable(bound, input, index, window) {
+            continue;
+        }
         let crosses_junction = || (start..=end).any(|k| line.near_junction(bound[k].s, JUNCTION_RADIUS));
         if !config.quirks.junction_at_anchor_only && crosses_junction() {
             continue;
@@ -167,6 +179,21 @@ fn fits(point: &BoundPoint, station: &Station, input: &Input, window: Window) ->
     };
     road_right - right_side <= input.config.pull_over_road_edge_buffer
         && point.l_max - point.l_min >= window.width
+}
+
+/// Whether the car can turn in to the place: two arcs of opposite bend move it aside by `κ d² / 4` over a
+/// distance `d`, and all the way the corridor must reach as far right.
+fn is_reachable(bound: &[BoundPoint], input: &Input, index: usize, window: Window) -> bool {
+    let kappa = TURN_IN_SHARE / input.vehicle.min_turn_radius;
+    let place = bound[index].l_min + window.width / 2.0;
+    bound[..index]
+        .iter()
+        .rev()
+        .take_while(|point| bound[index].s - point.s <= TURN_IN_LENGTH)
+        .all(|point| {
+            let d = (bound[index].s - point.s - STRAIGHTEN).max(0.0);
+            point.l_min <= place + kappa * d * d / 4.0
+        })
 }
 
 /// Where in the window the rear axle stands: the car is centred in it, by its length ahead and behind.

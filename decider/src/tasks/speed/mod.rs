@@ -7,6 +7,7 @@
 mod limits;
 mod overlap;
 mod profile;
+mod rules;
 
 pub use overlap::{Claim, claims};
 
@@ -32,9 +33,10 @@ pub struct SpeedConfig {
     pub emergency_jerk: f64,
     /// Lateral acceleration in bends, m/s².
     pub lateral_acceleration: f64,
-    /// Gap to something that blocks the path, m: room to pull out and pass it. The original's 6 m are too short
-    /// for a car that cannot reverse.
+    /// Gap to something that blocks the path, m (the original's `min_stop_distance_obstacle`).
     pub stop_distance: f64,
+    /// The same where a neighbouring lane may serve to pass it: a car that cannot reverse needs the room.
+    pub pull_out_distance: f64,
     /// Least such gap where the car came upon it late, m.
     pub least_stop_distance: f64,
     /// Gap to a leader at standstill, m.
@@ -45,6 +47,8 @@ pub struct SpeedConfig {
     pub lateral_margin: f64,
     /// Time that has to lie between the ego's and a crossing obstacle's use of the same place, s.
     pub yield_time: f64,
+    /// Share of the cruise speed driven while waiting for a gap in the lane to change to.
+    pub gap_seeking_share: f64,
     /// How far before its place a pull-over stops, m: within the tolerance, on its near side.
     pub pull_over_early: f64,
 }
@@ -58,12 +62,14 @@ impl Default for SpeedConfig {
             jerk: 3.0,
             emergency_jerk: 20.0,
             lateral_acceleration: 2.5,
-            stop_distance: 9.0,
+            stop_distance: 6.0,
+            pull_out_distance: 9.0,
             least_stop_distance: 1.5,
             follow_distance: 4.0,
             follow_time: 1.4,
             lateral_margin: 0.3,
             yield_time: 1.5,
+            gap_seeking_share: 0.85,
             pull_over_early: 0.25,
         }
     }
@@ -78,12 +84,17 @@ pub struct Planned {
     pub stop: Option<Stop>,
 }
 
-/// Plans the speed along `path`; `stop_at` is a place to stop at for its own sake.
-pub fn plan(scene: &Scene, path: &Path, stop_at: Option<Stop>) -> Planned {
+/// Plans the speed along `path`; `stop_at` is a place to stop at for its own sake, `before` what the last tick
+/// slowed down for.
+pub fn plan(scene: &Scene, path: &Path, stop_at: Option<Stop>, before: Option<Stop>) -> Planned {
     let stop = nearest_stop(scene, path, stop_at);
     let claims = claims(scene, path);
     let envelope = limits::Envelope::new(scene, path);
-    profile::integrate(scene, path, &envelope, stop, &claims)
+    let yielded_to = before.and_then(|stop| match stop.cause {
+        StopCause::Yield(id) => Some(id),
+        _ => None,
+    });
+    profile::integrate(scene, path, &envelope, stop, &claims, yielded_to)
 }
 
 /// The first of the given stop, the path's blocker and the path's end.
@@ -122,9 +133,20 @@ fn before_blocker(scene: &Scene, path: &Path, id: ObstacleId) -> f64 {
     let contact = contact.min(path.length() + 1.0);
     let v = scene.start.v;
     let comfortable = v * v / (2.0 * config.braking);
-    let wanted = contact - config.stop_distance;
+    let wanted = contact - wanted_gap(scene);
     let least = contact - config.least_stop_distance;
     wanted.max(comfortable.min(least)).min(path.length()).max(0.0)
+}
+
+/// Gap to leave to a blocker: room to pull out where there is a lane to pull out into.
+fn wanted_gap(scene: &Scene) -> f64 {
+    let config = &scene.config.speed;
+    let here = scene.line.sample_at(scene.ego.s);
+    if here.neighbours.iter().any(Option::is_some) {
+        config.pull_out_distance
+    } else {
+        config.stop_distance
+    }
 }
 
 /// Arc length along the path at station `s`, going on straight beyond its end.

@@ -63,7 +63,21 @@ pub fn claims(scene: &Scene, path: &Path) -> Vec<Claim> {
         .collect()
 }
 
+/// Slower than this along the line nobody comes up from behind, m/s.
+const COMING_UP: f64 = 0.5;
+
+/// Whether an obstacle comes from behind: then it has to keep clear of the ego, and braking would only bring
+/// it nearer. Whether a lane may be entered before it is asked when the lane is chosen.
+fn comes_from_behind(scene: &Scene, now: &TimedBox) -> bool {
+    let vehicle = scene.vehicle;
+    let ego_center = scene.ego.s + (vehicle.front_edge_to_center - vehicle.back_edge_to_center) / 2.0;
+    now.at.s < ego_center && now.s_dot > COMING_UP
+}
+
 fn claim(scene: &Scene, path: &Path, moving: &Moving) -> Option<Claim> {
+    if comes_from_behind(scene, &moving.boxes[0]) {
+        return None;
+    }
     let mut s_dot = None;
     let mut occupied = Vec::new();
     for there in &moving.boxes {

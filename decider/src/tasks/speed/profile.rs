@@ -1,9 +1,11 @@
 //! The speed profile: integrated forward, accelerating as the tightest constraint allows.
 
 use super::limits::Envelope;
-use super::overlap::{Claim, Occupied};
+use super::overlap::Claim;
+use super::rules::{self, BRAKE_LATE};
 use super::{Planned, SpeedConfig};
 use crate::decision::{PathPoint, Stop, StopCause, TrajectoryPoint};
+use crate::frame::ObstacleId;
 use crate::geometry::{Pose, angle};
 use crate::tasks::path::Path;
 use crate::tasks::scene::Scene;
@@ -17,17 +19,17 @@ const STEPS: u32 = 80;
 /// Slower than this the car stands, m/s.
 const STANDSTILL: f64 = 0.02;
 
-/// With less than this left to a stop it counts as reached, m.
-const OVERSHOT: f64 = 0.01;
+/// A standing car moves up to its stop again for more than this, m.
+const RESTART: f64 = 0.3;
 
-/// Gain of the free-road speed controller, 1/s.
-const CRUISE_GAIN: f64 = 0.8;
+/// A standing car follows traffic again for more than this, m.
+const RESTART_IN_TRAFFIC: f64 = 1.5;
+
+/// How much longer a crossing obstacle that was yielded to a tick ago is yielded to, s.
+const YIELD_HYSTERESIS: f64 = 0.7;
 
 /// An obstacle slower than this along the path crosses it rather than leads, m/s.
 const LEADER_SPEED: f64 = 0.5;
-
-/// Constraints that want less braking than this share of comfortable braking can wait.
-const BRAKE_LATE: f64 = 0.6;
 
 /// Motion along the path at one time.
 #[derive(Clone, Copy)]
@@ -55,6 +57,7 @@ pub(super) fn integrate(
     envelope: &Envelope,
     stop: Stop,
     claims: &[Claim],
+    yielded_to: Option<ObstacleId>,
 ) -> Planned {
     let planner = Planner {
         scene,
@@ -64,9 +67,13 @@ pub(super) fn integrate(
     };
     let mut responses: Vec<Response> = claims.iter().map(first_response).collect();
     let mut states = planner.run(claims, &responses, false);
+    let margin = |id: ObstacleId| {
+        let held = yielded_to == Some(id);
+        planner.config.yield_time + if held { YIELD_HYSTERESIS } else { 0.0 }
+    };
     // A claim that can be ignored is, until the profile made so meets it.
     for _ in 0..claims.len() {
-        let Some(hit) = first_hit(claims, &responses, &states, planner.config.yield_time) else {
+        let Some(hit) = first_hit(claims, &responses, &states, &margin) else {
             break;
         };
         responses[hit] = Response::Yield;
@@ -123,69 +130,50 @@ impl Planner<'_> {
 
     /// The acceleration that the tightest constraint allows.
     fn acceleration(&self, state: &State, claims: &[Claim], responses: &[Response]) -> f64 {
-        let mut wanted =
-            self.cruise(state)
-                .min(self.brake_for(state, self.stop.distance - state.distance, 0.0));
-        for (claim, response) in claims.iter().zip(responses) {
-            match response {
-                Response::Ignore => {}
-                Response::Follow => {
-                    if let Some(there) = claim.at(state.t) {
-                        wanted = wanted.min(self.follow(state, &there, claim.s_dot));
-                    }
-                }
-                Response::Yield => {
-                    if let Some(fence) = fence(claim, state) {
-                        let gap = fence - self.config.follow_distance - state.distance;
-                        wanted = wanted.min(self.brake_for(state, gap, 0.0));
-                    }
-                }
-            }
-        }
-        wanted
+        let own = self.cruise(state).min(self.brake(state));
+        let constraints = claims.iter().zip(responses);
+        constraints.fold(own, |wanted, (claim, response)| {
+            wanted.min(self.give_way(state, claim, *response))
+        })
     }
 
     /// Towards the speed that the road allows here and shortly ahead.
     fn cruise(&self, state: &State) -> f64 {
         let here = self.envelope.at(state.distance);
         let ahead = self.envelope.at(state.distance + state.v * STEP * 2.0);
-        let limit = here.min(ahead);
-        (CRUISE_GAIN * (limit - state.v)).clamp(-self.config.braking * 1.25, self.config.acceleration)
+        rules::cruise(self.config, state.v, here.min(ahead))
     }
 
-    /// Braking that comes down to speed `v_end` in `gap` metres; none as long as that is far off.
-    fn brake_for(&self, state: &State, gap: f64, v_end: f64) -> f64 {
-        let needed = state.v * state.v - v_end * v_end;
-        if needed <= 0.0 {
-            // Standing or slow enough: do not creep over the line.
-            return if gap > STANDSTILL {
-                self.config.acceleration.min(gap * 2.0)
-            } else {
-                0.0_f64.min(gap)
-            };
-        }
-        if gap <= OVERSHOT {
-            return -self.config.braking;
-        }
-        let braking = needed / (2.0 * gap);
-        // Starting up towards a near stop, the speed from which one can still stop gently is the limit.
-        let gentle = (2.0 * self.config.braking * BRAKE_LATE * gap.max(0.0)).sqrt();
-        if braking < self.config.braking * BRAKE_LATE {
-            return (CRUISE_GAIN * 2.0 * (gentle - state.v)).max(0.0);
-        }
-        -braking
+    /// For the stop. The end of a path that is not closed moves on as the car does: it can wait.
+    fn brake(&self, state: &State) -> f64 {
+        let patience = if self.stop.cause == StopCause::PathEnd {
+            1.0
+        } else {
+            BRAKE_LATE
+        };
+        rules::stop(
+            self.config,
+            state.v,
+            self.stop.distance - state.distance,
+            patience,
+            RESTART,
+        )
     }
 
-    /// The Intelligent Driver Model behind a leader.
-    fn follow(&self, state: &State, there: &Occupied, v_leader: f64) -> f64 {
-        let config = self.config;
-        let gap = (there.low - state.distance).max(0.1);
-        let closing = state.v - v_leader;
-        let dynamic = state.v * closing / (2.0 * (config.acceleration * config.braking).sqrt());
-        let wanted = config.follow_distance + (state.v * config.follow_time + dynamic).max(0.0);
-        let ratio = wanted / gap;
-        let cruise = (state.v / self.scene.frame.cruise_speed.max(1.0)).min(1.0);
-        config.acceleration * (1.0 - cruise * cruise * cruise * cruise - ratio * ratio)
+    /// For a moving obstacle.
+    fn give_way(&self, state: &State, claim: &Claim, response: Response) -> f64 {
+        let free = f64::MAX;
+        match response {
+            Response::Ignore => free,
+            Response::Follow => claim.at(state.t).map_or(free, |there| {
+                let gap = there.low - state.distance;
+                rules::follow(self.config, state.v, claim.s_dot, gap, self.scene.cruise_speed)
+            }),
+            Response::Yield => fence(claim, state).map_or(free, |fence| {
+                let gap = fence - self.config.follow_distance - state.distance;
+                rules::stop(self.config, state.v, gap, BRAKE_LATE, RESTART_IN_TRAFFIC)
+            }),
+        }
     }
 
     /// One step with limited jerk; hard braking may come fast.
@@ -218,18 +206,17 @@ impl Planner<'_> {
 
     /// The constraint that rules at the start or, failing that, the stop within the horizon.
     fn reason(&self, claims: &[Claim], responses: &[Response], states: &[State]) -> Option<Stop> {
-        let start = &states[0];
-        let end = &states[states.len() - 1];
+        let (start, end) = (&states[0], &states[states.len() - 1]);
         let mut tightest = (self.cruise(start) - 1e-9, None);
         for (claim, response) in claims.iter().zip(responses) {
-            let only = self.acceleration(start, std::slice::from_ref(claim), &[*response]);
-            if only < tightest.0 && *response != Response::Ignore {
+            let wanted = self.give_way(start, claim, *response);
+            if wanted < tightest.0 {
                 let cause = match response {
                     Response::Follow => StopCause::Follow(claim.id),
                     _ => StopCause::Yield(claim.id),
                 };
                 tightest = (
-                    only,
+                    wanted,
                     Some(Stop {
                         distance: claim.occupied[0].low,
                         cause,
@@ -237,8 +224,9 @@ impl Planner<'_> {
                 );
             }
         }
-        let stops = self.brake_for(start, self.stop.distance - start.distance, 0.0) <= tightest.0;
-        if stops || (tightest.1.is_none() && end.v <= STANDSTILL) {
+        let stops = self.brake(start) <= tightest.0;
+        let stands = tightest.1.is_none() && end.v <= STANDSTILL;
+        if stops || stands {
             Some(self.stop)
         } else {
             tightest.1
@@ -256,12 +244,19 @@ fn fence(claim: &Claim, state: &State) -> Option<f64> {
 }
 
 /// The first ignored claim that the profile comes too near to in time.
-fn first_hit(claims: &[Claim], responses: &[Response], states: &[State], margin: f64) -> Option<usize> {
+fn first_hit(
+    claims: &[Claim],
+    responses: &[Response],
+    states: &[State],
+    margin: &dyn Fn(ObstacleId) -> f64,
+) -> Option<usize> {
     claims.iter().zip(responses).position(|(claim, response)| {
         *response == Response::Ignore
             && states.iter().any(|state| {
                 claim.occupied.iter().any(|o| {
-                    (o.t - state.t).abs() <= margin && state.distance > o.low && state.distance < o.high
+                    (o.t - state.t).abs() <= margin(claim.id)
+                        && state.distance > o.low
+                        && state.distance < o.high
                 })
             })
     })

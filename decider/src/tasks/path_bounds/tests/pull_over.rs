@@ -111,11 +111,17 @@ fn the_window_fits_over_its_whole_length() {
         "no kerb is that near"
     );
     setup.config.pull_over_road_edge_buffer = 0.15;
+    setup.config.quirks.road_edge_at_axle = true;
     setup.bound(Label::PullOver);
     assert!(
         (place(&setup).s - 118.0).abs() < 1e-9,
         "the bound follows the kerb"
     );
+    // Under the whole body the kerb counts where it is nearest; where it springs back it is too far away.
+    setup.config.quirks.road_edge_at_axle = false;
+    setup.memory.pull_over.place = None;
+    setup.bound(Label::PullOver);
+    assert!(place(&setup).s < 118.0, "the bound follows the body");
 
     // A corridor narrower than a quarter of the car's width beyond the car.
     let wall = |l: f64| {

@@ -78,7 +78,7 @@ fn obstacle() -> impl Strategy<Value = ObstacleSl> {
 }
 
 fn quirks() -> impl Strategy<Value = Quirks> {
-    let one = prop::array::uniform17(any::<bool>()).prop_map(|on| Quirks {
+    let one = prop::array::uniform20(any::<bool>()).prop_map(|on| Quirks {
         arbitrary_blocker: on[0],
         greedy_sides: on[1],
         forgets_beside_overhang: on[2],
@@ -96,6 +96,9 @@ fn quirks() -> impl Strategy<Value = Quirks> {
         endless_ego_extension: on[14],
         fallback_ignores_obstacles: on[15],
         unchecked_short_window: on[16],
+        road_edge_at_axle: on[17],
+        pull_over_stands_alone: on[18],
+        unreachable_place: on[19],
     });
     prop_oneof![Just(Quirks::default()), Just(Quirks::apollo()), one]
 }

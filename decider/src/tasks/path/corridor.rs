@@ -1,0 +1,173 @@
+//! The corridor of a path: a bound at the path's stations, and what draws the path where inside it.
+
+use super::Goal;
+use super::table::{LineTable, STEP};
+use crate::tasks::path_bounds::{BoundPoint, EdgeCause, PathBound};
+use crate::tasks::scene::Scene;
+
+/// How far behind the ego's place the corridor may exclude it, and over which length that may last, m: a
+/// car that has strayed over its bound must be allowed back.
+const RETURN_LENGTH: f64 = 12.0;
+
+/// Stations without which there is no path to speak of.
+const LEAST_STATIONS: usize = 4;
+
+/// How far a path leads beyond the place where the car stops, m.
+const BEYOND_STOP: f64 = 1.0;
+
+/// How far before its stop a car has to be in place, m: it stops straight.
+const STRAIGHTEN: f64 = 2.0;
+
+/// How far from its place across the line it may stop, m.
+const ARRIVAL_TOLERANCE: f64 = 0.1;
+
+/// Travel time, s, and least distance, m, before a stop at the road's edge in which a car goes there: nobody
+/// drives along in the parking lane.
+const PULL_IN: (f64, f64) = (4.0, 22.0);
+
+/// Room beyond the buffer that a path would like to have to an obstacle, m.
+const WANTED_ROOM: f64 = 0.5;
+
+/// How much more the wish for room weighs than the wish to be in the middle of the lane.
+const ROOM_WEIGHT: f64 = 4.0;
+
+/// Where a station would like the path to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pull {
+    /// Offset, m.
+    pub l: f64,
+    /// How much that counts.
+    pub weight: f64,
+}
+
+/// A bound at the stations of the path.
+#[derive(Clone, Debug)]
+pub(super) struct Corridor {
+    /// Limits per station: right, left.
+    pub limits: Vec<(f64, f64)>,
+    /// What draws the path, per station.
+    pub pulls: Vec<Pull>,
+    /// `l`, `l'`, `l''` at the first station.
+    pub start: [f64; 3],
+    /// Length over which deviations are smoothed, m.
+    pub smoothing_length: f64,
+    /// Allowed overshoot per station, m.
+    pub tolerance: Vec<f64>,
+}
+
+impl Corridor {
+    /// The bound at every metre, each the narrowest of the stations around it. `None` if it is too short.
+    pub(super) fn new(scene: &Scene, table: &LineTable, bound: &PathBound, goal: Goal) -> Option<Self> {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a small whole number"
+        )]
+        let stride = (STEP / bound.delta_s).round() as usize;
+        let count = (bound.points.len().saturating_sub(1) / stride + 1).min(table.rows.len());
+        if count < LEAST_STATIONS {
+            return None;
+        }
+        // What lies beyond a stop does not concern the way there.
+        let needed = goal.stop_s.map_or(count, |s| {
+            table.rows.partition_point(|row| row.s < s + BEYOND_STOP)
+        });
+        let count = count.min(needed.max(LEAST_STATIONS));
+        let mut limits: Vec<(f64, f64)> = (0..count)
+            .map(|k| limits_near(&bound.points, k, stride))
+            .collect();
+        let mut pulls: Vec<Pull> = limits
+            .iter()
+            .enumerate()
+            .map(|(k, limits)| pull(*limits, &bound.points[k * stride]))
+            .collect();
+        if let Some(stop_s) = goal.stop_s {
+            arrive(scene, table, goal.l, stop_s, &mut limits, &mut pulls);
+        }
+        let config = &scene.config.path;
+        let start = scene.lateral.l;
+        let outside = (limits[0].0 - start[0]).max(start[0] - limits[0].1).max(0.0);
+        let fade = |k: usize| (1.0 - k as f64 * STEP / RETURN_LENGTH).max(0.0);
+        let tolerance = (0..count)
+            .map(|k| config.bound_tolerance + outside * fade(k))
+            .collect();
+        let smoothing_length = (scene.start.v * config.smoothing_time).max(config.least_smoothing_length);
+        Some(Self {
+            limits,
+            pulls,
+            start,
+            smoothing_length,
+            tolerance,
+        })
+    }
+
+    /// Number of stations.
+    pub(super) fn len(&self) -> usize {
+        self.limits.len()
+    }
+}
+
+/// What the stations around number `k` of the path have in common.
+fn limits_near(points: &[BoundPoint], k: usize, stride: usize) -> (f64, f64) {
+    let (first, last) = ((k * stride).saturating_sub(stride - 1), k * stride + stride - 1);
+    let near = &points[first..=last.min(points.len() - 1)];
+    let (lo, hi) = near.iter().fold((-f64::MAX, f64::MAX), |(lo, hi), p| {
+        (lo.max(p.l_min), hi.min(p.l_max))
+    });
+    let here = &points[k * stride];
+    // Where the corridor jumps aside between two stations they need not have anything in common.
+    if lo <= hi {
+        (lo, hi)
+    } else {
+        (here.l_min, here.l_max)
+    }
+}
+
+/// The line where it is free; beside an obstacle with some room to it, shared where there is one on either side.
+fn pull((lo, hi): (f64, f64), point: &BoundPoint) -> Pull {
+    let room = |cause| {
+        if matches!(cause, EdgeCause::Obstacle(_)) {
+            WANTED_ROOM
+        } else {
+            0.0
+        }
+    };
+    let (right, left) = (room(point.right), room(point.left));
+    let weight = if right + left > 0.0 { ROOM_WEIGHT } else { 1.0 };
+    let (lowest, highest) = (lo + right, hi - left);
+    let l = if lowest <= highest {
+        0.0_f64.clamp(lowest, highest)
+    } else {
+        let share = (hi - lo) / (right + left);
+        lo + right * share
+    };
+    Pull {
+        l: l.clamp(lo, hi),
+        weight,
+    }
+}
+
+/// Draws the end of the path to a place at the road's edge and has it arrive there straight.
+fn arrive(
+    scene: &Scene,
+    table: &LineTable,
+    l: f64,
+    stop_s: f64,
+    limits: &mut [(f64, f64)],
+    pulls: &mut [Pull],
+) {
+    let pull_in = (scene.start.v * PULL_IN.0).max(PULL_IN.1);
+    for ((limits, pull), row) in limits.iter_mut().zip(pulls).zip(&table.rows) {
+        let (lo, hi) = *limits;
+        let place = l.clamp(lo, hi);
+        if row.s >= stop_s - pull_in {
+            pull.l = place;
+        }
+        if row.s >= stop_s - STRAIGHTEN {
+            *limits = (
+                lo.max(place - ARRIVAL_TOLERANCE),
+                hi.min(place + ARRIVAL_TOLERANCE),
+            );
+        }
+    }
+}
