@@ -207,7 +207,8 @@ impl<'a> Active<'a> {
         while let Some((obstacle, rest)) = self.ahead.split_first()
             && obstacle.first <= station
         {
-            if obstacle.l_max > self.extent.0 && obstacle.l_min < self.extent.1 {
+            let narrows = obstacle.l_max > self.extent.0 && obstacle.l_min < self.extent.1;
+            if narrows || obstacle.only.is_some() {
                 let place = self.beside.partition_point(|other| other.l_min <= obstacle.l_min);
                 self.beside.insert(place, *obstacle);
             }
