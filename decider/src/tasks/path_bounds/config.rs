@@ -120,6 +120,8 @@ pub struct Quirks {
     pub junction_at_anchor_only: bool,
     /// 18: a missing road width counts as near enough to the edge.
     pub unchecked_road_width: bool,
+    /// Not in that list: a car so short that its window has no length may pull over anywhere, unchecked.
+    pub unchecked_short_window: bool,
     /// 20: a double yellow line may be crossed.
     pub crosses_double_yellow: bool,
     /// 22: a lane is borrowed where there is none.
@@ -150,6 +152,7 @@ impl Quirks {
             unsigned_road_edge: true,
             junction_at_anchor_only: true,
             unchecked_road_width: true,
+            unchecked_short_window: true,
             crosses_double_yellow: true,
             borrows_phantom_lane: true,
             zone_without_lane: true,

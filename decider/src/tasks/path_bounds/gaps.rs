@@ -1,10 +1,11 @@
 //! The way around static obstacles, chosen among all gaps between them.
 //!
 //! Obstacles beside a station leave gaps. A corridor is a chain of gaps, one per station, each touching the
-//! next; the sides on which it passes the obstacles follow from it. A forward dynamic program keeps the best
-//! chain into every gap: farthest first, then least lateral motion, with a surcharge on passing an obstacle on
-//! another side than in the tick before. So a road that can be passed is never taken for blocked, the answer
-//! does not depend on the order of the obstacles, and it does not flip without a reason.
+//! next, from the ego's own side of whatever it is beside; the sides on which it passes the obstacles follow
+//! from it. A forward dynamic program keeps the best chain into every gap: farthest first, then least lateral
+//! motion, with a surcharge on passing an obstacle on another side than in the tick before. So a road that can
+//! be passed is never taken for blocked, the answer does not depend on the order of the obstacles, and it does
+//! not flip without a reason.
 //!
 //! Where neither the obstacles nor the edges of the bound change, one gap stands for many stations.
 
@@ -36,11 +37,26 @@ const EGO_SLACK: f64 = 0.02;
 #[derive(Clone, Copy, Debug)]
 struct Forbidden {
     id: ObstacleId,
+    /// Near edge of the obstacle itself, m.
+    start_s: f64,
     first: usize,
     past: usize,
     l_min: f64,
     l_max: f64,
     remembered: Option<Side>,
+    /// The only side left to an ego that is beside it.
+    only: Option<Side>,
+}
+
+impl Forbidden {
+    /// On which side of it a gap lies whose right limit is `right`.
+    fn side_of(&self, right: f64) -> Side {
+        if self.l_max <= right {
+            Side::Left
+        } else {
+            Side::Right
+        }
+    }
 }
 
 /// A free interval between two forbidden ones (or the bound's edges) and the best chain that leads into it.
@@ -99,7 +115,12 @@ pub(super) fn limit(
         });
         if gaps.len() == start {
             passage.is_blocked = true;
-            passage.blocked_by = closer(&active.beside, &gaps[before]);
+            let blocker = if input.config.quirks.arbitrary_blocker {
+                active.beside.iter().map(|obstacle| obstacle.id).min()
+            } else {
+                closer(&active.beside, &gaps[before], &bound[first])
+            };
+            passage.blocked_by = blocker.filter(|id| *id != ObstacleId::ANONYMOUS);
             bound.truncate(first);
             break;
         }
@@ -118,29 +139,46 @@ fn forbidden_intervals(
     beside: &[Beside],
     widening: Widening,
 ) -> Vec<Forbidden> {
-    let half_width = input.vehicle.half_width();
-    let forbidden = |obstacle: &Beside| {
-        // Beside the ego the buffer gives way rather than demand a jump.
-        let buffer = |room: f64| {
-            let kept = if obstacle.first == 0 {
-                room - half_width - EGO_SLACK
-            } else {
-                widening.lateral
-            };
-            kept.clamp(widening.hard.min(widening.lateral), widening.lateral)
-        };
-        let (room_left, room_right) = (input.ego.l - obstacle.end_l, obstacle.start_l - input.ego.l);
-        Forbidden {
-            id: obstacle.id,
-            first: obstacle.first,
-            past: obstacle.past,
-            l_min: obstacle.start_l - half_width - buffer(room_right),
-            l_max: obstacle.end_l + half_width + buffer(room_left),
-            remembered: obstacle.remembered,
-        }
-    };
     let reached = beside.iter().take_while(|obstacle| obstacle.first < stations);
-    reached.map(forbidden).collect()
+    reached
+        .filter_map(|obstacle| forbidden_by(obstacle, input, widening))
+        .collect()
+}
+
+/// What one obstacle forbids, if that is anything.
+fn forbidden_by(obstacle: &Beside, input: &Input, widening: Widening) -> Option<Forbidden> {
+    let half_width = input.vehicle.half_width();
+    // Beside the ego the buffer gives way rather than demand a jump, and the side is chosen.
+    let is_beside = obstacle.first == 0;
+    let buffer = |room: f64| {
+        let kept = if is_beside {
+            room - half_width - EGO_SLACK
+        } else {
+            widening.lateral
+        };
+        kept.max(widening.hard.min(widening.lateral))
+            .min(widening.lateral)
+    };
+    let right = obstacle.start_l.min(obstacle.end_l);
+    let left = obstacle.start_l.max(obstacle.end_l);
+    let (room_left, room_right) = (input.ego.l - left, right - input.ego.l);
+    let only = match (room_left >= 0.0, room_right >= 0.0) {
+        (true, _) => Some(Side::Left),
+        (_, true) => Some(Side::Right),
+        _ => None,
+    };
+    let l_min = right - half_width - buffer(room_right);
+    let l_max = left + half_width + buffer(room_left);
+    (l_min < l_max).then_some(Forbidden {
+        id: obstacle.id,
+        start_s: obstacle.start_s,
+        first: obstacle.first,
+        past: obstacle.past,
+        l_min,
+        l_max,
+        remembered: obstacle.remembered,
+        only: only.filter(|_| is_beside),
+    })
 }
 
 /// The obstacles beside one station, moved along the bound.
@@ -169,7 +207,8 @@ impl<'a> Active<'a> {
         while let Some((obstacle, rest)) = self.ahead.split_first()
             && obstacle.first <= station
         {
-            if obstacle.l_max > self.extent.0 && obstacle.l_min < self.extent.1 {
+            let narrows = obstacle.l_max > self.extent.0 && obstacle.l_min < self.extent.1;
+            if narrows || obstacle.only.is_some() {
                 let place = self.beside.partition_point(|other| other.l_min <= obstacle.l_min);
                 self.beside.insert(place, *obstacle);
             }
@@ -263,7 +302,13 @@ impl Entry {
             }
         };
         if self.is_first {
-            return Some(entered(self.ego_l, 0.0, 0));
+            // The ego cannot jump across what it is beside.
+            let jumps = |obstacle: &Forbidden| {
+                obstacle
+                    .only
+                    .is_some_and(|only| only != obstacle.side_of(right.l))
+            };
+            return (!active.iter().any(jumps)).then(|| entered(self.ego_l, 0.0, 0));
         }
         let touching = |gap: &Gap| gap.right.l <= left.l && right.l <= gap.left.l;
         let mut best: Option<Gap> = None;
@@ -280,34 +325,32 @@ impl Entry {
 /// Surcharges for the obstacles that begin at this station and would be passed on another side than before.
 fn flip_cost(right: Limit, left: Limit, active: &[Forbidden], i: usize) -> f64 {
     let flips = active.iter().filter(|obstacle| {
-        obstacle.first == i && {
-            let side = if obstacle.l_max <= right.l {
-                Side::Left
-            } else {
-                Side::Right
-            };
-            debug_assert!(obstacle.l_max <= right.l || obstacle.l_min >= left.l || right.l > left.l);
-            obstacle.remembered.is_some_and(|before| before != side)
-        }
+        debug_assert!(obstacle.l_max <= right.l || obstacle.l_min >= left.l);
+        let side = obstacle.side_of(right.l);
+        obstacle.first == i && obstacle.remembered.is_some_and(|before| before != side)
     });
     flips.count() as f64 * FLIP_COST
 }
 
-/// The obstacle that closed the corridor: the one begun last among those in the way of the last open gaps.
-fn closer(active: &[Forbidden], before: &[Gap]) -> Option<ObstacleId> {
-    let in_the_way = |obstacle: &&Forbidden| {
-        before.is_empty()
-            || before
-                .iter()
-                .any(|gap| obstacle.l_min < gap.left.l && gap.right.l < obstacle.l_max)
+/// The obstacle that closed the corridor, of those beside the first station that cannot be reached: one that
+/// stands in a gap by which the station before can be left. Those all begin here, because a gap is clear of what
+/// began before; the nearest in `s` is named, then the least id. Where nothing new stands in the way the road
+/// itself closes a gap: then it is the obstacle begun last among those that stand between the bound's edges.
+fn closer(active: &[Forbidden], before: &[Gap], point: &BoundPoint) -> Option<ObstacleId> {
+    let stands_in =
+        |obstacle: &Forbidden, right: f64, left: f64| obstacle.l_min < left && right < obstacle.l_max;
+    let in_a_gap = |obstacle: &&Forbidden| {
+        before
+            .iter()
+            .any(|gap| stands_in(obstacle, gap.right.l, gap.left.l))
     };
-    let latest = |a: &&Forbidden, b: &&Forbidden| a.first.cmp(&b.first).then(b.id.cmp(&a.id));
-    active
-        .iter()
-        .filter(in_the_way)
-        .max_by(latest)
-        .or_else(|| active.iter().max_by(latest))
-        .map(|o| o.id)
+    let in_the_bound = |obstacle: &&Forbidden| stands_in(obstacle, point.l_min, point.l_max);
+    let nearest = |a: &&Forbidden, b: &&Forbidden| a.start_s.total_cmp(&b.start_s).then(a.id.cmp(&b.id));
+    let latest = |a: &&Forbidden, b: &&Forbidden| a.first.cmp(&b.first).then(nearest(b, a));
+    let named = active.iter().filter(in_a_gap).min_by(nearest);
+    named
+        .or_else(|| active.iter().filter(in_the_bound).max_by(latest))
+        .map(|obstacle| obstacle.id)
 }
 
 /// Narrows the points to the best chain, walking back from the last slab.
@@ -332,12 +375,7 @@ fn carve(points: &mut [BoundPoint], gaps: &[Gap], slabs: &[Slab]) {
 fn sides(bound: &[BoundPoint], forbidden: &[Forbidden]) -> Vec<(ObstacleId, Side)> {
     let side = |obstacle: &Forbidden| {
         let point = bound.get(obstacle.first)?;
-        let side = if obstacle.l_max <= point.l_min {
-            Side::Left
-        } else {
-            Side::Right
-        };
-        Some((obstacle.id, side))
+        Some((obstacle.id, obstacle.side_of(point.l_min)))
     };
     forbidden.iter().filter_map(side).collect()
 }

@@ -18,6 +18,8 @@ mod pull_over;
 mod road;
 mod search;
 mod stations;
+#[cfg(test)]
+mod tests;
 
 pub use bound::{Borrow, BoundPoint, EdgeCause, Label, LaneType, PathBound};
 pub use config::{PathBoundsConfig, Quirks};

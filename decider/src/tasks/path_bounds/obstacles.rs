@@ -23,6 +23,8 @@ pub(super) struct Beside {
     /// First station beside it, and the first one past it.
     pub first: usize,
     pub past: usize,
+    /// Its near edge, m.
+    pub start_s: f64,
     /// Its right and left edge, m.
     pub start_l: f64,
     pub end_l: f64,
@@ -55,6 +57,7 @@ pub(super) fn beside(stations: &[Station], input: &Input, remembered: &[(Obstacl
                 id: obstacle.id,
                 first,
                 past,
+                start_s: obstacle.start_s,
                 start_l: obstacle.start_l,
                 end_l: obstacle.end_l,
                 remembered: before.map(|(_, side)| *side),
@@ -87,13 +90,16 @@ pub(super) fn limit(
     }
 }
 
-/// Whether an obstacle concerns the static bounds at all.
+/// Whether an obstacle concerns the static bounds at all. One whose box has an edge that is no number cannot be
+/// placed and does not.
 pub(super) fn is_in_scope(obstacle: &ObstacleSl, input: &Input) -> bool {
+    let edges = [obstacle.start_s, obstacle.end_s, obstacle.start_l, obstacle.end_l];
+    let is_placed = edges.iter().all(|edge| !edge.is_nan());
     let stands = obstacle.is_static && obstacle.speed <= input.config.static_obstacle_speed_threshold;
     let last = if input.config.quirks.forgets_beside_overhang {
         obstacle.end_s
     } else {
         obstacle.end_s + input.config.obstacle_lon_end_buffer
     };
-    !obstacle.is_virtual && !obstacle.is_ignored && stands && last >= input.ego.s
+    is_placed && !obstacle.is_virtual && !obstacle.is_ignored && stands && last >= input.ego.s
 }

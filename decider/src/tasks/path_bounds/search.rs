@@ -144,6 +144,11 @@ fn window_end(
     direction: Direction,
     window: Window,
 ) -> Option<usize> {
+    // A window of no length still has a first station.
+    let unchecked = window.length <= 0.0 && input.config.quirks.unchecked_short_window;
+    if !unchecked && !fits(&bound[anchor], &stations[anchor], input, window) {
+        return None;
+    }
     let mut j = anchor;
     while (bound[anchor].s - bound[j].s).abs() < window.length {
         if !fits(&bound[j], &stations[j], input, window) {
@@ -203,7 +208,7 @@ fn stop_index(input: &Input, start: usize, end: usize) -> usize {
         reason = "a mean of two indices"
     )]
     let index = (ratio * end as f64 + (1.0 - ratio) * start as f64).floor() as usize;
-    index
+    index.clamp(start, end)
 }
 
 fn found<L: LineQuery + ?Sized>(bound: &[BoundPoint], line: &L, index: usize, window: Window) -> Found {

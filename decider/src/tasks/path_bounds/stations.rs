@@ -7,8 +7,15 @@ use crate::road::{BoundaryType, Neighbour};
 /// Longitudinal horizon at low speed, m (the original's `kPathBoundsDeciderHorizon`).
 const HORIZON: f64 = 100.0;
 
+/// Longest horizon whatever the cruise speed, m: farther than anything is seen, and 4,000 stations.
+const LONGEST_HORIZON: f64 = 2000.0;
+
 /// Distance between stations, m (the original's `kPathBoundsDeciderResolution`).
 pub(super) const RESOLUTION: f64 = 0.5;
+
+/// Stations farther than this from the line's start are not sampled, m: no road is that long, and near 2^52 m half
+/// a metre is lost in rounding.
+const FARTHEST: f64 = 1e9;
 
 /// What the line knows at one station.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,14 +34,20 @@ pub struct Station {
     pub neighbours: [Option<f64>; 4],
 }
 
-/// Samples the line from the ego to the end of the horizon. Empty when the ego is at or past the line's end.
+/// Samples the line from the ego to the end of the horizon. Empty when the ego is at or past the line's end, or
+/// nowhere near the line.
 pub(super) fn sample<L: LineQuery + ?Sized>(line: &L, input: &Input) -> Vec<Station> {
     let cruise = if input.cruise_speed > 0.0 {
         input.cruise_speed
     } else {
         input.config.default_cruise_speed
     };
-    let reach = HORIZON.max(cruise * input.config.trajectory_time_length);
+    let reach = HORIZON
+        .max(cruise * input.config.trajectory_time_length)
+        .min(LONGEST_HORIZON);
+    if input.ego.s.is_nan() || input.ego.s.abs() > FARTHEST {
+        return Vec::new();
+    }
     let end = (input.ego.s + reach).min(line.length());
     let mut stations = Vec::with_capacity(256);
     line.sample(input.ego.s, RESOLUTION, end, &mut stations);

@@ -103,7 +103,7 @@ mod tests {
                 "from {v} m/s it stood after {distance} m"
             );
             assert!(
-                hardest > -CONFIG().braking,
+                hardest >= -CONFIG().braking,
                 "from {v} m/s it braked with {hardest}"
             );
         }
