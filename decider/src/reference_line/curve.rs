@@ -139,6 +139,7 @@ impl Curve {
         let last = self.knots.len() - 2;
         let mut k = self.nearest_chord(point);
         let mut t = self.chord_fraction(k, point);
+        let on_chord = (k, t);
         for _ in 0..FOOT_STEPS {
             let length = self.knots[k + 1].s - self.knots[k].s;
             let at = self.between(k, t);
@@ -157,7 +158,16 @@ impl Curve {
                 break;
             }
         }
-        (k, t)
+        // Beyond the centre of a bend Newton's method runs away from the nearest point: then the chord's foot stays.
+        let distance = |(k, t): (usize, f64)| {
+            let at = self.between(k, t.clamp(0.0, 1.0));
+            Vec2::new(point.x - at.x, point.y - at.y).norm_squared()
+        };
+        if distance((k, t)) <= distance(on_chord) {
+            (k, t)
+        } else {
+            on_chord
+        }
     }
 
     /// Index of the chord nearest to `point`; the first of equals.
