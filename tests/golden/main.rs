@@ -1,6 +1,8 @@
 //! The golden vectors of the path bounds, run by the `conformance` program as anyone would run it; and that the
 //! program tells a wrong answer from a right one.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
+
 use serde_json::Value;
 use std::io::Read;
 use std::path::{Path, PathBuf};

@@ -20,14 +20,14 @@ use crate::road::Side;
 /// width, so that only a clearly better way changes the mind.
 const FLIP_COST: f64 = 1.75;
 
-/// Weight of the distance from the line, per metre driven: enough to prefer the near side of an obstacle,
+/// Weight of the distance from the line, per station: enough to prefer the near side of an obstacle,
 /// too little to give up room.
 const OFFSET_WEIGHT: f64 = 0.02;
 
 /// A gap narrower than this is avoided where a wider one exists, m.
 const COMFORTABLE_WIDTH: f64 = 0.4;
 
-/// Weight of the width that is missing to a comfortable gap, per metre driven.
+/// Weight of the width that is missing to a comfortable gap, per station.
 const NARROW_WEIGHT: f64 = 0.2;
 
 /// How near to its own place the ego keeps a relaxed limit, m.

@@ -207,3 +207,52 @@ fn the_blocker_where_the_lane_narrows() {
     let bound = setup.bound(OWN);
     assert_eq!((bound.end_s(), bound.blocked_by), (79.5, Some(ObstacleId(1))));
 }
+
+/// A gap as wide as the car and its buffers leads through, one narrower by a rounding does not.
+#[test]
+fn a_gap_of_no_width_is_a_gap() {
+    let passing = |l: f64| {
+        Setup::fixed()
+            .with(|setup| {
+                setup.vehicle.width = 2.0;
+                setup.config.obstacle_lat_buffer = 0.5;
+                setup.road.sections[0].lane = Some((2.0, 2.0));
+            })
+            .parked(1, (80.0, 84.0), (l, 3.0))
+            .bound(OWN)
+    };
+    let bound = passing(0.5);
+    assert_eq!(bound.blocked_by, None);
+    super::setup::assert_limits(&bound, 77.5, 86.0, (-1.0, -1.0));
+    assert_eq!(passing(0.5 - 1e-12).end_s(), 77.0);
+}
+
+/// Of two ways of about the same effort, the one nearer to the line.
+#[test]
+fn the_way_nearer_to_the_line_is_preferred() {
+    let bound = Setup::fixed()
+        .with(|setup| {
+            setup.road.sections[0].lane = Some((6.0, 6.0));
+            setup.ego.l = 2.0;
+        })
+        .parked(1, (80.0, 82.0), (1.855, 1.945))
+        .bound(OWN);
+    super::setup::assert_limits(&bound, 77.5, 84.0, (-4.945, 0.4));
+}
+
+/// A wide gap is preferred to one that the car just fits into, though that lies on the line.
+#[test]
+fn a_wide_gap_is_preferred_to_a_narrow_one() {
+    let between = |left: f64| {
+        Setup::fixed()
+            .with(|setup| {
+                setup.road.sections[0].lane = Some((6.0, 6.0));
+                setup.ego.l = -1.5;
+            })
+            .parked(1, (130.0, 170.0), (-1.55, -1.45))
+            .parked(2, (130.0, 170.0), (left, 4.5))
+            .bound(OWN)
+    };
+    super::setup::assert_limits(&between(1.9), 127.5, 149.5, (0.005, 0.445));
+    super::setup::assert_limits(&between(1.47), 127.5, 149.5, (-4.945, -3.005));
+}
