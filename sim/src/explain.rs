@@ -3,10 +3,11 @@
 //! Offsets are metres left of the reference line; stations are metres along it. Bounds are for the rear axle,
 //! with half the car's width already taken off.
 
+mod around;
 pub(crate) mod words;
 
 use crate::trace::{TickRecord, Trace};
-use corridor_decider::decision::{Candidate, Decision};
+use corridor_decider::decision::{Candidate, PathPoint};
 use corridor_decider::reference_line::LineQuery;
 use corridor_decider::tasks::path_bounds::{BoundPoint, EdgeCause, PathBound};
 use std::fmt::{self, Display, Formatter};
@@ -44,7 +45,7 @@ impl Display for Explanation<'_> {
             stretches(out, trace, &candidate.bound, "right", |p| (p.right, p.l_min))?;
         }
         writeln!(out)?;
-        conclusion(out, trace, decision)?;
+        conclusion(out, trace, tick)?;
         events(out, trace, tick.frame.time)
     }
 }
@@ -81,16 +82,11 @@ fn situation(out: &mut Formatter<'_>, trace: &Trace, tick: &TickRecord) -> fmt::
         tick.lines.len(),
         line.length()
     )?;
-    let moving = frame.obstacles.iter().filter(|o| !o.is_static).count();
-    writeln!(
-        out,
-        "obstacles   {} seen, {moving} of them moving",
-        frame.obstacles.len()
-    )?;
+    around::obstacles(out, trace, tick)?;
     if let Some((clearance, id)) = tick.clearance {
         writeln!(
             out,
-            "clearance   {clearance:.2} m to `{}` in this tick",
+            "clearance   at least {clearance:.2} m during this tick, to `{}`",
             trace.obstacle(id)
         )?;
     }
@@ -155,39 +151,47 @@ fn stretches(
 }
 
 /// Path, stop reason, outcome.
-fn conclusion(out: &mut Formatter<'_>, trace: &Trace, decision: &Decision) -> fmt::Result {
+fn conclusion(out: &mut Formatter<'_>, trace: &Trace, tick: &TickRecord) -> fmt::Result {
+    let decision = &tick.decision;
     match (decision.path.first(), decision.path.last()) {
         (Some(first), Some(last)) => {
-            let kappa = decision
-                .path
-                .iter()
-                .fold(0.0_f64, |most, p| most.max(p.kappa.abs()));
+            let extreme = |start: f64, more: fn(f64, f64) -> f64, value: fn(&PathPoint) -> f64| {
+                decision.path.iter().map(value).fold(start, more)
+            };
             writeln!(
                 out,
-                "path        {:.1} m, s {:.1}…{:.1}, l {:+.2} to {:+.2} m, curvature up to {kappa:.3} 1/m",
+                "path        {:.1} m, s {:.1}…{:.1}, l from {:+.2} to {:+.2} m within {:+.2}…{:+.2}, curvature up to {:.3} 1/m",
                 last.distance - first.distance,
                 first.s,
                 last.s,
                 first.l,
-                last.l
+                last.l,
+                extreme(f64::INFINITY, f64::min, |p| p.l),
+                extreme(f64::NEG_INFINITY, f64::max, |p| p.l),
+                extreme(0.0, f64::max, |p| p.kappa.abs()),
             )?;
         }
         _ => writeln!(out, "path        none")?,
     }
     if let Some(last) = decision.trajectory.last() {
+        let hardest = decision.trajectory.iter().map(|p| p.a).fold(0.0, f64::min);
         writeln!(
             out,
-            "trajectory  {:.1} s, {:.1} m, ends at {:.2} m/s",
-            last.t, last.distance, last.v
+            "trajectory  {:.1} s, {:.1} m, ends at {:.2} m/s, brakes with up to {:.2} m/s²",
+            last.t,
+            last.distance,
+            last.v,
+            hardest.abs()
         )?;
     }
     let stop = decision.stop.map(|stop| words::stop(trace, stop));
     writeln!(out, "stop        {}", stop.as_deref().unwrap_or("none"))?;
     if let Some(target) = decision.pull_over {
+        let at = trace.line(tick).to_frenet(target.position);
         writeln!(
             out,
-            "pull over   at ({:.1}, {:.1}), heading {:.2} rad",
-            target.position.x, target.position.y, target.theta
+            "pull over   at s {:.1} m, l {:+.2} m, that is ({:.1}, {:.1}) heading {:.2} rad",
+            at.s, at.l, target.position.x, target.position.y, target.theta
         )?;
     }
     writeln!(out, "outcome     {}", words::outcome(decision.outcome))
@@ -204,9 +208,14 @@ fn events(out: &mut Formatter<'_>, trace: &Trace, time: f64) -> fmt::Result {
         if k == 0 {
             writeln!(out, "\nevents within {EVENTS_WITHIN:.0} s")?;
         }
+        let mark = if (event.time - time).abs() < 1e-6 {
+            '*'
+        } else {
+            ' '
+        };
         writeln!(
             out,
-            "    {:.2} s  {}: {}",
+            "{mark}   {:.2} s  {}: {}",
             event.time,
             words::event(event.kind),
             event.text
@@ -239,7 +248,7 @@ mod tests {
              s   75.3… 130.3  right: lane line (-0.69 m)",
             "stop        none",
             "outcome     normal: a path inside a wanted bound",
-            "events within 1 s\n    1.20 s  label: regular/self/ -> regular/left/reverse around `van`",
+            "events within 1 s\n*   1.20 s  label: regular/self/ -> regular/left/reverse around `van`",
         ];
         let mut rest = &text[..];
         for part in expected {

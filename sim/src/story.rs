@@ -1,5 +1,6 @@
 //! The story of a run: what happened, in a few lines for people.
 
+use crate::monitor::summary::ending_words;
 use crate::trace::{Event, EventKind};
 use crate::verdict::Ending;
 use corridor_decider::decision::{Decision, Outcome, PullOverTarget};
@@ -55,7 +56,7 @@ impl Story {
             self.label = label;
         }
         if decision.outcome != self.outcome && decision.outcome != Outcome::Normal {
-            texts.push((EventKind::Fallback, format!("falls back: {:?}", decision.outcome)));
+            texts.push((EventKind::Fallback, fallen_back(decision.outcome).to_owned()));
         }
         self.outcome = decision.outcome;
         texts.extend(
@@ -68,7 +69,11 @@ impl Story {
         }
         if let Some(ending) = ending.filter(|_| !self.is_over) {
             self.is_over = true;
-            texts.push((EventKind::Arrived, format!("the run ends: {ending:?}")));
+            let kind = match ending {
+                Ending::Collision | Ending::Timeout | Ending::DeciderFailed => EventKind::Note,
+                _ => EventKind::Arrived,
+            };
+            texts.push((kind, format!("the run is over: {}", ending_words(ending))));
         }
         texts
             .into_iter()
@@ -94,5 +99,15 @@ impl Story {
             "{text} at ({:.1}, {:.1})",
             place.position.x, place.position.y
         ))
+    }
+}
+
+/// What is driven instead of a path inside a wanted bound.
+fn fallen_back(outcome: Outcome) -> &'static str {
+    match outcome {
+        Outcome::Normal => "not at all",
+        Outcome::PathFallback => "drives inside the fallback bound",
+        Outcome::LastPath => "brakes along the path of the tick before",
+        Outcome::EmergencyStop => "brakes fully, straight ahead",
     }
 }

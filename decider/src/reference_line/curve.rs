@@ -144,7 +144,9 @@ impl Curve {
             let at = self.between(k, t);
             let (sin, cos) = angle::sin_cos(at.theta);
             let d = Vec2::new(point.x - at.x, point.y - at.y);
-            let stretch = 1.0 - at.kappa * (cos * d.y - sin * d.x);
+            // The heading's own rate of turn: where the road bends suddenly it is not the mean of the curvatures.
+            let turn = angle::difference(self.knots[k + 1].point.theta, self.knots[k].point.theta);
+            let stretch = 1.0 - turn / length * (cos * d.y - sin * d.x);
             let step = (cos * d.x + sin * d.y) / stretch.max(LEAST_STRETCH);
             t += step / length;
             if t > 1.0 && k < last {

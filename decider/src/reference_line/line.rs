@@ -14,6 +14,9 @@ const JOIN_TOLERANCE: f64 = 0.5;
 /// Samples closer than this are one, m.
 const SAME_POINT: f64 = 1e-3;
 
+/// A shorter line is none, m: there is nothing to plan along, and its ends have no direction of their own.
+const LEAST_LENGTH: f64 = 0.1;
+
 /// How far from the line a lane may be for its heading to count, m.
 const LANE_HEADING_RADIUS: f64 = 5.0;
 
@@ -72,11 +75,20 @@ pub enum LineError {
         /// Distance between them, m.
         gap: f64,
     },
+    /// Nothing to plan along.
+    #[error("a reference line needs two points at least {LEAST_LENGTH} m apart; this one is {length} m long")]
+    TooShort {
+        /// Its length, m.
+        length: f64,
+    },
+    /// A written line whose stations do not increase from 0, or with a number that is none.
+    #[error("cross-section {0} of the reference line is not a finite step behind the one before")]
+    Sample(usize),
 }
 
 /// A smooth curve with everything a decider asks of the road beside it. Immutable.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(from = "Vec<LineSample>", into = "Vec<LineSample>")]
+#[serde(try_from = "WrittenLine", into = "Vec<LineSample>")]
 pub struct ReferenceLine {
     samples: Vec<LineSample>,
     curve: Curve,
@@ -89,6 +101,38 @@ impl From<Vec<LineSample>> for ReferenceLine {
     }
 }
 
+/// A line as a file has it: nothing about it is known to be right.
+#[derive(Deserialize)]
+#[serde(transparent)]
+struct WrittenLine(Vec<LineSample>);
+
+impl TryFrom<WrittenLine> for ReferenceLine {
+    type Error = LineError;
+
+    fn try_from(WrittenLine(samples): WrittenLine) -> Result<Self, LineError> {
+        let is_finite = |sample: &LineSample| {
+            let LinePoint { x, y, theta, kappa } = sample.point;
+            [sample.s, x, y, theta, kappa].iter().all(|v| v.is_finite())
+        };
+        let mut before = f64::NEG_INFINITY;
+        for (k, sample) in samples.iter().enumerate() {
+            if !is_finite(sample) || sample.s <= before {
+                return Err(LineError::Sample(k));
+            }
+            before = sample.s;
+        }
+        long_enough(samples).map(Self::from)
+    }
+}
+
+fn long_enough(samples: Vec<LineSample>) -> Result<Vec<LineSample>, LineError> {
+    let length = samples.last().map_or(0.0, |last| last.s);
+    if samples.len() < 2 || length < LEAST_LENGTH {
+        return Err(LineError::TooShort { length });
+    }
+    Ok(samples)
+}
+
 impl From<ReferenceLine> for Vec<LineSample> {
     fn from(line: ReferenceLine) -> Self {
         line.samples
@@ -99,7 +143,7 @@ impl ReferenceLine {
     /// The line along the centre lines of `lanes`, which follow each other.
     ///
     /// # Errors
-    /// [`LineError`] when there is no lane or two of them do not meet.
+    /// [`LineError`] when there is no lane, two of them do not meet or all are too short.
     pub fn along(map: &RoadMap, lanes: &[LaneId]) -> Result<Self, LineError> {
         if lanes.is_empty() {
             return Err(LineError::Empty);
@@ -122,7 +166,7 @@ impl ReferenceLine {
                 append(&mut samples, sample(map, *id, point));
             }
         }
-        Ok(Self::from(samples))
+        long_enough(samples).map(Self::from)
     }
 
     /// Its cross-sections, by ascending station.
@@ -261,11 +305,18 @@ fn beyond_the_end(end: &LineSample, point: Vec2) -> SlPoint {
     }
 }
 
-/// Adds a cross-section behind the last one, at the station that its distance gives.
+/// Adds a cross-section behind the last one, at the station that its distance gives. Where a lane ends and the next
+/// one begins, the next one rules from there on; that the place belongs to a junction is true of both.
 fn append(samples: &mut Vec<LineSample>, mut next: LineSample) {
-    if let Some(last) = samples.last() {
+    if let Some(last) = samples.last_mut() {
         let step = Vec2::new(next.point.x - last.point.x, next.point.y - last.point.y).norm();
         if step < SAME_POINT {
+            *last = LineSample {
+                s: last.s,
+                point: last.point,
+                in_junction: last.in_junction || next.in_junction,
+                ..next
+            };
             return;
         }
         // Length of the arc over this chord, so that stations do not shrink in bends.

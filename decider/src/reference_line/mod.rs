@@ -8,6 +8,8 @@ mod line;
 mod query;
 #[cfg(test)]
 pub(crate) mod testing;
+#[cfg(test)]
+mod tests;
 
 pub use line::{LineError, LinePoint, LineSample, ReferenceLine};
 pub use query::{LineQuery, SlPoint};

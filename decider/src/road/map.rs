@@ -5,6 +5,13 @@ use super::lane::{Lane, LaneId, LanePoint, Neighbour};
 use crate::geometry::{Vec2, angle};
 use serde::{Deserialize, Serialize};
 
+/// Largest coordinate of a map, m: beyond every projection's, and small enough to count the index's cells.
+const FARTHEST: f64 = 1e8;
+
+/// Largest distance between cross-sections and largest width, m. Real ones are half a metre and a few; a wrong number
+/// in a file must not fill the index with millions of cells.
+const LARGEST_STEP: f64 = 1000.0;
+
 /// Handle of a junction inside its map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(transparent)]
@@ -159,6 +166,14 @@ fn check(lane: &Lane, lane_count: usize, junction_count: usize) -> Result<(), &'
     }
     if lane.points.windows(2).any(|pair| pair[1].s <= pair[0].s) {
         return Err("stations must increase");
+    }
+    if lane.points.iter().any(|p| p.x.abs().max(p.y.abs()) > FARTHEST) {
+        return Err("lies more than 1e8 m from the origin");
+    }
+    let apart = |pair: &[LanePoint]| Vec2::new(pair[1].x - pair[0].x, pair[1].y - pair[0].y).norm();
+    let is_wide = |p: &LanePoint| p.left.max(p.right) > LARGEST_STEP;
+    if lane.points.windows(2).any(|pair| apart(pair) > LARGEST_STEP) || lane.points.iter().any(is_wide) {
+        return Err("has cross-sections more than a kilometre apart or wide");
     }
     let links = lane
         .predecessors

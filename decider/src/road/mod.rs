@@ -6,6 +6,8 @@
 mod index;
 mod lane;
 mod map;
+#[cfg(test)]
+mod tests;
 
 pub use lane::{BoundaryType, Lane, LaneId, LaneKind, LanePoint, Mark, Neighbour, Side};
 pub use map::{Junction, JunctionId, MapError, RoadMap};

@@ -9,6 +9,13 @@ use corridor_scenarios::scenario::LateralMove;
 /// sideways, and one that stands does not move at all.
 const STEEPEST: f64 = 0.36;
 
+/// Where the ego's rear axle is, ahead of the driver's centre, while the two are side by side, m: the length of both
+/// cars and a metre or two. Even who cuts in looks over the shoulder: running into a car beside is no test of it.
+const BESIDE: (f64, f64) = (-8.0, 5.0);
+
+/// How far aside the ego is then at most, m.
+const NEXT_LANE: f64 = 6.0;
+
 /// A move that waits, is under way or is over.
 #[derive(Clone, Debug)]
 pub(super) struct Manoeuvre {
@@ -33,7 +40,10 @@ impl Manoeuvre {
     /// Sets the drift of `follower` for the coming step.
     pub(super) fn steer(&mut self, follower: &mut LineFollower, moment: &Moment, dt: f64) {
         if self.under_way.is_none() {
-            if !moment.sets_off(self.plan.trigger, follower.motion().0.position()) {
+            let pose = follower.motion().0;
+            let ego = pose.to_local(moment.ego);
+            let is_beside = ego.x > BESIDE.0 && ego.x < BESIDE.1 && ego.y.abs() < NEXT_LANE;
+            if is_beside || !moment.sets_off(self.plan.trigger, pose.position()) {
                 return;
             }
             let length = self.plan.duration.max(dt);

@@ -22,7 +22,7 @@ mod road;
 mod savitzky_golay;
 mod score;
 mod standstill;
-mod summary;
+pub(crate) mod summary;
 #[cfg(test)]
 mod tests;
 mod tracking;

@@ -30,7 +30,8 @@ pub(super) fn sentence(
     }
 }
 
-fn ending_words(ending: Ending) -> &'static str {
+/// An ending as the end of a sentence.
+pub(crate) fn ending_words(ending: Ending) -> &'static str {
     match ending {
         Ending::GoalReached => "reached the goal",
         Ending::PulledOver => "stood at the road's edge",

@@ -123,6 +123,7 @@ mod tests {
     fn what_is_out_of_sight_is_left_out() {
         let mut lanes = synthetic::lanes();
         let mut far = lanes[0].clone();
+        far.name = "far".to_owned();
         for point in &mut far.points {
             point.y += 400.0;
         }

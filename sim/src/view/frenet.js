@@ -93,7 +93,7 @@ function paintAxes(context, map, width, height) {
   context.save();
   context.translate(9, GUTTER.top + map.h / 2);
   context.rotate(-Math.PI / 2);
-  context.fillText("offset l [m], left is up", 0, 0);
+  context.fillText(map.h > 150 ? "offset l [m], left is up" : "l [m], left is up", 0, 0);
   context.restore();
 }
 
@@ -179,6 +179,18 @@ function paintShapes(context, map, tick) {
   }
 }
 
+/// The place to pull over and the destination, as the line sees them.
+function paintTargetOnLine(context, map, tick) {
+  const line = lineCaches[tick.line];
+  if (tick.destination) paintPin(context, map(...toLine(line, ...tick.destination)));
+  if (!tick.pull_over) return;
+  const [x, y, theta] = tick.pull_over;
+  targetStroke(context);
+  egoOutline(context, (wx, wy) => map(...toLine(line, wx, wy)), x, y, theta);
+  context.stroke();
+  paintCross(context, map(...toLine(line, x, y)));
+}
+
 function paintShapeNames(context, map, tick) {
   const taken = [];
   for (const obstacle of obstaclesOf(tick)) {
@@ -250,6 +262,7 @@ function paintFrenet(context, width, height) {
   const order = shown(tick).sort((a, b) => (a.k === tick.chosen) - (b.k === tick.chosen));
   for (const item of order) paintBound(context, map, item, tick);
   paintEgoAndPath(context, map, tick);
+  paintTargetOnLine(context, map, tick);
   paintStop(context, map, tick);
   paintShapeNames(context, map, tick);
   paintHover(context, map, tick);

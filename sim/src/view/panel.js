@@ -19,6 +19,7 @@ function situation(tick) {
     ["wheels", `${signed((steer * 180) / Math.PI, 1)}°`],
     ["command", `${run.texts[tick.command]}, at most ${fixed(series.cruise_speed[state.k], 1)} m/s`],
     ["stop", tick.stop === null ? "none" : run.texts[tick.stop] + (tick.stop_at ? `, ${fixed(tick.stop_at[0], 1)} m ahead` : "")],
+    ["place", tick.pull_over ? (([s, l]) => `to pull over: s ${fixed(s)} m, l ${signed(l)} m`)(toLine(lineCaches[tick.line], ...tick.pull_over)) : null],
     ["outcome", element("span", { class: tick.normal ? null : "fail" }, run.texts[tick.outcome])],
     ["state", element("span", { class: "mono" }, tick.hash)],
   ]);
@@ -28,8 +29,9 @@ function candidateBox(candidate, chosen) {
   const text = run.labels[candidate.label];
   const length = candidate.span[1] - candidate.span[0];
   const narrow = candidate.narrow;
+  const fate = [chosen ? "" : run.texts[candidate.text], candidate.blocked === null ? "" : `blocked by \`${run.texts[candidate.blocked]}\``];
   const detail = [
-    run.texts[candidate.text] + (candidate.blocked === null ? "" : `; blocked by \`${run.texts[candidate.blocked]}\``),
+    ...(fate.some((part) => part) ? [fate.filter((part) => part).join("; ")] : []),
     narrow ? `narrowest ${fixed(narrow[2] - narrow[1])} m at s ${fixed(narrow[0], 1)}: ${causeAt(candidate.left, narrow[0])} on the left, ${causeAt(candidate.right, narrow[0])} on the right` : "no point in it",
   ];
   return element("div", { class: `candidate${chosen ? " chosen" : ""}` },

@@ -257,18 +257,35 @@ function paintNames(context, map, tick, width, height) {
   }
 }
 
+/// The place to pull over, as a body that stands there, and the destination of the command; `map` from above.
 function paintTarget(context, map, tick) {
+  if (tick.destination) paintPin(context, map(...tick.destination));
   if (!tick.pull_over) return;
+  targetStroke(context);
+  egoOutline(context, map, ...tick.pull_over);
+  context.stroke();
+  paintCross(context, map(tick.pull_over[0], tick.pull_over[1]));
+}
+
+function targetStroke(context) {
   context.strokeStyle = colour("c-pullover");
   context.lineWidth = 1.8;
   context.setLineDash([5, 3]);
-  egoOutline(context, map, ...tick.pull_over);
-  context.stroke();
+}
+
+function paintCross(context, [x, y]) {
   context.setLineDash([]);
-  const [x, y] = map(tick.pull_over[0], tick.pull_over[1]);
   context.beginPath();
   context.moveTo(x - 6, y); context.lineTo(x + 6, y); context.moveTo(x, y - 6); context.lineTo(x, y + 6);
   context.stroke();
+}
+
+function paintPin(context, [x, y]) {
+  context.fillStyle = colour("c-pullover");
+  context.beginPath();
+  context.moveTo(x, y); context.lineTo(x - 5, y - 12); context.arc(x, y - 13, 5, Math.PI * 0.9, Math.PI * 2.1); context.lineTo(x, y);
+  context.fill();
+  label(context, "destination", x + 8, y - 10, { ink: "c-pullover" });
 }
 
 /// Where the ego has been and will be in this run.

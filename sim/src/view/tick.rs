@@ -6,7 +6,7 @@ use super::thin;
 use crate::explain::words;
 use crate::trace::{TickRecord, Trace};
 use corridor_decider::decision::{Candidate, PathPoint, TrajectoryPoint};
-use corridor_decider::frame::Obstacle;
+use corridor_decider::frame::{Command, Obstacle};
 use corridor_decider::geometry::{Pose, Vec2};
 use corridor_decider::reference_line::{LineQuery, ReferenceLine};
 use corridor_decider::tasks::path_bounds::{BoundPoint, EdgeCause, PathBound};
@@ -50,6 +50,8 @@ pub(super) struct TickData {
     normal: bool,
     /// `x, y, theta`
     pull_over: Option<[f64; 3]>,
+    /// Where the command asks to stop, `x, y`.
+    destination: Option<[f64; 2]>,
     hash: String,
 }
 
@@ -125,6 +127,10 @@ impl TickData {
                     origin,
                 )
             }),
+            destination: match frame.command {
+                Command::PullOver(at) => Some([thin::milli(at.x - origin.x), thin::milli(at.y - origin.y)]),
+                _ => None,
+            },
             hash: tick.hash.clone(),
         }
     }

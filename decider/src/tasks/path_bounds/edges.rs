@@ -10,8 +10,15 @@ pub(super) struct Limit {
     pub cause: EdgeCause,
 }
 
+/// The point that two limits leave at a station; `None` where that is nothing.
+pub(super) fn between(s: f64, right: Limit, left: Limit) -> Option<BoundPoint> {
+    let mut point = unbounded_at(s);
+    narrow(&mut point, right, left);
+    (point.l_min <= point.l_max).then_some(point)
+}
+
 /// A point without limits.
-pub(super) fn unbounded_at(s: f64) -> BoundPoint {
+fn unbounded_at(s: f64) -> BoundPoint {
     BoundPoint {
         s,
         l_min: -f64::MAX,

@@ -139,10 +139,10 @@ fn forbidden_intervals(
     beside: &[Beside],
     widening: Widening,
 ) -> Vec<Forbidden> {
+    let mut all = Vec::with_capacity(beside.len());
     let reached = beside.iter().take_while(|obstacle| obstacle.first < stations);
-    reached
-        .filter_map(|obstacle| forbidden_by(obstacle, input, widening))
-        .collect()
+    all.extend(reached.filter_map(|obstacle| forbidden_by(obstacle, input, widening)));
+    all
 }
 
 /// What one obstacle forbids, if that is anything.
@@ -184,7 +184,7 @@ fn forbidden_by(obstacle: &Beside, input: &Input, widening: Widening) -> Option<
 /// The obstacles beside one station, moved along the bound.
 struct Active<'a> {
     /// By ascending right edge.
-    beside: Vec<Forbidden>,
+    beside: Vec<&'a Forbidden>,
     /// Those still to come.
     ahead: &'a [Forbidden],
     /// The rightmost and the leftmost `l` of the whole bound: what lies beyond narrows nothing.
@@ -210,7 +210,7 @@ impl<'a> Active<'a> {
             let narrows = obstacle.l_max > self.extent.0 && obstacle.l_min < self.extent.1;
             if narrows || obstacle.only.is_some() {
                 let place = self.beside.partition_point(|other| other.l_min <= obstacle.l_min);
-                self.beside.insert(place, *obstacle);
+                self.beside.insert(place, obstacle);
             }
             self.ahead = rest;
         }
@@ -226,15 +226,15 @@ impl<'a> Active<'a> {
     }
 }
 
-/// How many points have the edges of the first one.
+/// How many points have the edges of the first one. Where only the causes differ, gaps do not.
 fn count_alike(points: &[BoundPoint]) -> usize {
-    let edges = |p: &BoundPoint| (p.l_min.to_bits(), p.l_max.to_bits(), p.right, p.left);
-    let alike = |p: &&BoundPoint| edges(p) == edges(&points[0]);
-    points.iter().take_while(alike).count()
+    let edges = |p: &BoundPoint| (p.l_min.to_bits(), p.l_max.to_bits());
+    let first = edges(&points[0]);
+    points.iter().take_while(|p| edges(p) == first).count()
 }
 
 /// Calls `found` for each free interval of a station, from right to left. `active` is sorted by `l_min`.
-fn open_gaps(point: &BoundPoint, active: &[Forbidden], mut found: impl FnMut(Limit, Limit)) {
+fn open_gaps(point: &BoundPoint, active: &[&Forbidden], mut found: impl FnMut(Limit, Limit)) {
     let mut right = Limit {
         l: point.l_min,
         cause: point.right,
@@ -287,7 +287,7 @@ struct Entry {
 
 impl Entry {
     /// The best chain into a gap from the slab before, if any of its gaps touches it; the leftmost of equals.
-    fn best(&self, before: &[Gap], right: Limit, left: Limit, active: &[Forbidden]) -> Option<Gap> {
+    fn best(&self, before: &[Gap], right: Limit, left: Limit, active: &[&Forbidden]) -> Option<Gap> {
         let flips = flip_cost(right, left, active, self.first);
         let narrow = (COMFORTABLE_WIDTH - (left.l - right.l)).max(0.0) * NARROW_WEIGHT;
         let entered = |from: f64, cost: f64, parent: usize| {
@@ -303,7 +303,7 @@ impl Entry {
         };
         if self.is_first {
             // The ego cannot jump across what it is beside.
-            let jumps = |obstacle: &Forbidden| {
+            let jumps = |obstacle: &&Forbidden| {
                 obstacle
                     .only
                     .is_some_and(|only| only != obstacle.side_of(right.l))
@@ -323,7 +323,7 @@ impl Entry {
 }
 
 /// Surcharges for the obstacles that begin at this station and would be passed on another side than before.
-fn flip_cost(right: Limit, left: Limit, active: &[Forbidden], i: usize) -> f64 {
+fn flip_cost(right: Limit, left: Limit, active: &[&Forbidden], i: usize) -> f64 {
     let flips = active.iter().filter(|obstacle| {
         debug_assert!(obstacle.l_max <= right.l || obstacle.l_min >= left.l);
         let side = obstacle.side_of(right.l);
@@ -336,7 +336,7 @@ fn flip_cost(right: Limit, left: Limit, active: &[Forbidden], i: usize) -> f64 {
 /// stands in a gap by which the station before can be left. Those all begin here, because a gap is clear of what
 /// began before; the nearest in `s` is named, then the least id. Where nothing new stands in the way the road
 /// itself closes a gap: then it is the obstacle begun last among those that stand between the bound's edges.
-fn closer(active: &[Forbidden], before: &[Gap], point: &BoundPoint) -> Option<ObstacleId> {
+fn closer(active: &[&Forbidden], before: &[Gap], point: &BoundPoint) -> Option<ObstacleId> {
     let stands_in =
         |obstacle: &Forbidden, right: f64, left: f64| obstacle.l_min < left && right < obstacle.l_max;
     let in_a_gap = |obstacle: &&Forbidden| {
@@ -347,9 +347,10 @@ fn closer(active: &[Forbidden], before: &[Gap], point: &BoundPoint) -> Option<Ob
     let in_the_bound = |obstacle: &&Forbidden| stands_in(obstacle, point.l_min, point.l_max);
     let nearest = |a: &&Forbidden, b: &&Forbidden| a.start_s.total_cmp(&b.start_s).then(a.id.cmp(&b.id));
     let latest = |a: &&Forbidden, b: &&Forbidden| a.first.cmp(&b.first).then(nearest(b, a));
-    let named = active.iter().filter(in_a_gap).min_by(nearest);
+    let beside = || active.iter().copied();
+    let named = beside().filter(in_a_gap).min_by(nearest);
     named
-        .or_else(|| active.iter().filter(in_the_bound).max_by(latest))
+        .or_else(|| beside().filter(in_the_bound).max_by(latest))
         .map(|obstacle| obstacle.id)
 }
 
@@ -377,5 +378,7 @@ fn sides(bound: &[BoundPoint], forbidden: &[Forbidden]) -> Vec<(ObstacleId, Side
         let point = bound.get(obstacle.first)?;
         Some((obstacle.id, obstacle.side_of(point.l_min)))
     };
-    forbidden.iter().filter_map(side).collect()
+    let mut all = Vec::with_capacity(forbidden.len());
+    all.extend(forbidden.iter().map_while(side));
+    all
 }

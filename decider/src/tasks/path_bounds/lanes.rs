@@ -1,7 +1,7 @@
 //! Limits from the lane, a borrowed lane and the ego itself (`GetBoundaryFromLanesAndADC`).
 
 use super::bound::{Borrow, BoundPoint, EdgeCause, LaneType};
-use super::edges::{Limit, tighten, unbounded_at};
+use super::edges::{Limit, between};
 use super::input::Input;
 use super::stations::Station;
 use crate::road::{BoundaryType, Neighbour, Side};
@@ -43,6 +43,8 @@ pub(super) fn bound(
     let mut edges = LaneEdges::new(lane_width / 2.0);
     let extension = (input.config.is_extend_lane_bounds_to_include_adc || rules.force_extend)
         .then(|| Extension::new(input, here.offset, rules.buffer));
+    let (beside_lane, beside_road) = (input.config.adc_buffer_coeff * half_width, half_width);
+    let half = |is_lane: bool| if is_lane { beside_lane } else { beside_road };
     let mut borrowed = None;
     let mut bound = Vec::with_capacity(stations.len());
 
@@ -52,30 +54,15 @@ pub(super) fn bound(
         if let Some((_, reverse)) = neighbour {
             borrowed = Some(borrowed.unwrap_or(false) || reverse);
         }
-        let (left, right) = edges.with_neighbour(rules.borrow, neighbour.map(|(width, _)| width));
-        let (left, right) = match &extension {
-            Some(extension) => extension.widen(left, right, station.s - input.ego.s),
-            None => (left, right),
-        };
-        let coeff = |is_lane| {
-            if is_lane {
-                input.config.adc_buffer_coeff
-            } else {
-                1.0
-            }
-        };
-        let left = Limit {
-            l: (left.l - station.offset) - coeff(edges.left_is_lane) * half_width,
-            ..left
-        };
-        let right = Limit {
-            l: (right.l - station.offset) + coeff(edges.right_is_lane) * half_width,
-            ..right
-        };
-        let mut point = unbounded_at(station.s);
-        if !tighten(&mut point, right, left) {
-            break;
+        let (mut left, mut right) = edges.with_neighbour(rules.borrow, neighbour.map(|(width, _)| width));
+        if let Some(extension) = &extension {
+            (left, right) = extension.widen(left, right, station.s - input.ego.s);
         }
+        left.l = (left.l - station.offset) - half(edges.left_is_lane);
+        right.l = (right.l - station.offset) + half(edges.right_is_lane);
+        let Some(point) = between(station.s, right, left) else {
+            break;
+        };
         bound.push(point);
     }
     let lane = lane_type(rules.borrow, borrowed, input.config.quirks.borrows_phantom_lane);
@@ -192,6 +179,10 @@ impl Extension {
     }
 
     fn widen(&self, left: Limit, right: Limit, ahead: f64) -> (Limit, Limit) {
+        let (beyond_left, beyond_right) = (self.left > left.l, self.right < right.l);
+        if !beyond_left && !beyond_right {
+            return (left, right);
+        }
         let share = match self.fade {
             None => 1.0,
             Some((from, to)) => ((to - ahead) / (to - from)).clamp(0.0, 1.0),
@@ -211,8 +202,8 @@ impl Extension {
             }
         };
         (
-            widened(left, self.left, self.left > left.l),
-            widened(right, self.right, self.right < right.l),
+            widened(left, self.left, beyond_left),
+            widened(right, self.right, beyond_right),
         )
     }
 }

@@ -10,12 +10,12 @@ const HORIZON: f64 = 100.0;
 /// Longest horizon whatever the cruise speed, m: farther than anything is seen, and 4,000 stations.
 const LONGEST_HORIZON: f64 = 2000.0;
 
-/// Largest station that is taken for one, m: far beyond any road, and far before half a metre is lost in rounding,
-/// where adding it up would never end.
-const FARTHEST: f64 = 1e12;
-
 /// Distance between stations, m (the original's `kPathBoundsDeciderResolution`).
 pub(super) const RESOLUTION: f64 = 0.5;
+
+/// Stations farther than this from the line's start are not sampled, m: no road is that long, and near 2^52 m half
+/// a metre is lost in rounding.
+const FARTHEST: f64 = 1e9;
 
 /// What the line knows at one station.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,8 +34,8 @@ pub struct Station {
     pub neighbours: [Option<f64>; 4],
 }
 
-/// Samples the line from the ego to the end of the horizon. Empty when the ego is at or past the line's end, or
-/// nowhere near the line.
+/// Samples the line from the ego to the end of the horizon. Empty when the ego is at or past the line's end, or absurdly
+/// far before its start.
 pub(super) fn sample<L: LineQuery + ?Sized>(line: &L, input: &Input) -> Vec<Station> {
     let cruise = if input.cruise_speed > 0.0 {
         input.cruise_speed
@@ -45,7 +45,7 @@ pub(super) fn sample<L: LineQuery + ?Sized>(line: &L, input: &Input) -> Vec<Stat
     let reach = HORIZON
         .max(cruise * input.config.trajectory_time_length)
         .min(LONGEST_HORIZON);
-    if input.ego.s.is_nan() || input.ego.s.abs() > FARTHEST {
+    if input.ego.s.abs() > FARTHEST {
         return Vec::new();
     }
     let end = (input.ego.s + reach).min(line.length());

@@ -1,0 +1,13 @@
+//! The program from outside: exit codes, messages, and what is left behind in a folder.
+//!
+//! Exit codes are 0 for passed, 1 for a failed gate, 2 for wrong use or bad input. A message names the file, the
+//! place in it, what is wrong and what would be right; a mistake leaves no file behind.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod endings;
+mod inputs;
+mod outputs;
+mod program;
+mod settings;
+mod traces;

@@ -1,0 +1,11 @@
+//! The closed loop from outside: runs repeat to the bit, traces hold all that a tick needs, and every fixed
+//! scenario of the catalog ends as it should.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod alone;
+mod catalog;
+mod failing;
+mod order;
+mod repeat;
+mod support;
