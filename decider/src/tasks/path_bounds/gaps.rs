@@ -148,27 +148,27 @@ fn forbidden_intervals(
 /// What one obstacle forbids, if that is anything.
 fn forbidden_by(obstacle: &Beside, input: &Input, widening: Widening) -> Option<Forbidden> {
     let half_width = input.vehicle.half_width();
-    // Beside the ego the buffer gives way rather than demand a jump, and the side is chosen.
-    let is_beside = obstacle.first == 0;
-    let buffer = |room: f64| {
-        let kept = if is_beside {
-            room - half_width - EGO_SLACK
-        } else {
-            widening.lateral
-        };
-        kept.max(widening.hard.min(widening.lateral))
-            .min(widening.lateral)
-    };
     let right = obstacle.start_l.min(obstacle.end_l);
     let left = obstacle.start_l.max(obstacle.end_l);
-    let (room_left, room_right) = (input.ego.l - left, right - input.ego.l);
-    let only = match (room_left >= 0.0, room_right >= 0.0) {
-        (true, _) => Some(Side::Left),
-        (_, true) => Some(Side::Right),
-        _ => None,
-    };
-    let l_min = right - half_width - buffer(room_right);
-    let l_max = left + half_width + buffer(room_left);
+    let (mut buffer_right, mut buffer_left) = (widening.lateral, widening.lateral);
+    let mut only = None;
+    if obstacle.first == 0 {
+        // Beside the ego the buffer gives way rather than demand a jump, and the side is chosen.
+        let kept = |room: f64| {
+            (room - half_width - EGO_SLACK)
+                .max(widening.hard.min(widening.lateral))
+                .min(widening.lateral)
+        };
+        let (room_left, room_right) = (input.ego.l - left, right - input.ego.l);
+        (buffer_right, buffer_left) = (kept(room_right), kept(room_left));
+        only = match (room_left >= 0.0, room_right >= 0.0) {
+            (true, _) => Some(Side::Left),
+            (_, true) => Some(Side::Right),
+            _ => None,
+        };
+    }
+    let l_min = right - half_width - buffer_right;
+    let l_max = left + half_width + buffer_left;
     (l_min < l_max).then_some(Forbidden {
         id: obstacle.id,
         start_s: obstacle.start_s,
@@ -177,7 +177,7 @@ fn forbidden_by(obstacle: &Beside, input: &Input, widening: Widening) -> Option<
         l_min,
         l_max,
         remembered: obstacle.remembered,
-        only: only.filter(|_| is_beside),
+        only,
     })
 }
 
@@ -186,39 +186,35 @@ struct Active<'a> {
     /// By ascending right edge.
     beside: Vec<&'a Forbidden>,
     /// Those still to come.
-    ahead: &'a [Forbidden],
-    /// The rightmost and the leftmost `l` of the whole bound: what lies beyond narrows nothing.
-    extent: (f64, f64),
+    ahead: std::iter::Peekable<std::vec::IntoIter<&'a Forbidden>>,
 }
 
 impl<'a> Active<'a> {
+    /// All that narrow the bound somewhere, or that the ego is beside: what lies outside changes no gap.
     fn of(all: &'a [Forbidden], bound: &[BoundPoint]) -> Self {
+        let (right, left) = bound.iter().fold((f64::MAX, -f64::MAX), |(right, left), point| {
+            (right.min(point.l_min), left.max(point.l_max))
+        });
+        let matters = |o: &&Forbidden| (o.l_max > right && o.l_min < left) || o.only.is_some();
+        let mut ahead = Vec::with_capacity(all.len());
+        ahead.extend(all.iter().filter(matters));
         Self {
-            beside: Vec::with_capacity(all.len()),
-            ahead: all,
-            extent: bound.iter().fold((f64::MAX, -f64::MAX), |(right, left), point| {
-                (right.min(point.l_min), left.max(point.l_max))
-            }),
+            beside: Vec::with_capacity(ahead.len()),
+            ahead: ahead.into_iter().peekable(),
         }
     }
 
     fn move_to(&mut self, station: usize) {
         self.beside.retain(|obstacle| obstacle.past > station);
-        while let Some((obstacle, rest)) = self.ahead.split_first()
-            && obstacle.first <= station
-        {
-            let narrows = obstacle.l_max > self.extent.0 && obstacle.l_min < self.extent.1;
-            if narrows || obstacle.only.is_some() {
-                let place = self.beside.partition_point(|other| other.l_min <= obstacle.l_min);
-                self.beside.insert(place, obstacle);
-            }
-            self.ahead = rest;
+        while let Some(obstacle) = self.ahead.next_if(|obstacle| obstacle.first <= station) {
+            let place = self.beside.partition_point(|other| other.l_min <= obstacle.l_min);
+            self.beside.insert(place, obstacle);
         }
     }
 
     /// The next station at which an obstacle begins or ends.
-    fn next_change(&self) -> usize {
-        let next = self.ahead.first().map_or(usize::MAX, |obstacle| obstacle.first);
+    fn next_change(&mut self) -> usize {
+        let next = self.ahead.peek().map_or(usize::MAX, |obstacle| obstacle.first);
         self.beside
             .iter()
             .map(|obstacle| obstacle.past)
