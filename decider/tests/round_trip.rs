@@ -282,4 +282,24 @@ fn broken_files_are_refused() {
     assert!(backwards.contains("cross-section 7"), "{backwards}");
     let no_number = refused(&|value| value["lines"][0]["line"][7]["point"]["x"] = serde_json::Value::Null);
     assert!(no_number.contains("null"), "{no_number}");
+    let no_body = refused(&|value| value["obstacles"][0]["shape"] = serde_json::json!([[0.0, 0.0]]));
+    assert!(no_body.contains("outline of 1 points"), "{no_body}");
+}
+
+proptest! {
+    /// Frames of wild numbers are decided, tick after tick, without a panic.
+    #[test]
+    fn wild_frames_are_decided(frames in prop::collection::vec(frame(), 3), good in any::<bool>()) {
+        let planner = Planner::new(Config::default(), VehicleParams::default());
+        let mut context = Context::default();
+        for mut frame in frames {
+            if good {
+                // A proper road and ego among wild obstacles.
+                let plain = driving(Command::Cruise, 60.0);
+                frame.lines = plain.lines;
+                (frame.ego, frame.time) = (plain.ego, plain.time);
+            }
+            let _ = planner.decide(&frame, &mut context);
+        }
+    }
 }

@@ -10,8 +10,9 @@ use corridor_decider::frame::{EgoState, Obstacle, PredictedPose};
 use corridor_decider::geometry::{Pose, Vec2};
 use std::f64::consts::PI;
 
-/// How far the sensors see from the ego's reference point to an obstacle's centre, m.
-pub const SENSOR_RANGE: f64 = 120.0;
+/// How far the sensors see from the ego's reference point to an obstacle's centre, m: who goes out to pass has to
+/// see what comes in the time that takes.
+pub const SENSOR_RANGE: f64 = 200.0;
 
 /// Units per metre, radian and metre per second to which numbers are rounded, 1/m: a tenth of a millimetre.
 /// Finer than any decision, and short in a file.

@@ -112,7 +112,8 @@ struct PathDecider {
 #[derive(Deserialize)]
 struct PullOver {
     plan_pull_over_path: bool,
-    pull_over_type: String,
+    #[serde(rename = "pull_over_type")]
+    kind: String,
     position: Option<Place>,
     theta: f64,
     length_front: f64,
@@ -123,7 +124,8 @@ struct PullOver {
 
 #[derive(Deserialize)]
 struct ChangeLane {
-    is_clear_to_change_lane: bool,
+    #[serde(rename = "is_clear_to_change_lane")]
+    is_clear: bool,
     exist_lane_change_start_position: bool,
     lane_change_start_position: Option<Place>,
 }
@@ -142,7 +144,8 @@ struct Boundary {
     start_s: f64,
     delta_s: f64,
     blocking_obstacle_id: String,
-    boundary: Vec<(f64, f64)>,
+    #[serde(rename = "boundary")]
+    points: Vec<(f64, f64)>,
     blocking_candidates: Vec<String>,
 }
 
@@ -240,7 +243,7 @@ fn memory(status: &Status) -> bounds::Memory {
         width_left: given.width_left,
         width_right: given.width_right,
     });
-    let kind = match given.pull_over_type.as_str() {
+    let kind = match given.kind.as_str() {
         "EMERGENCY_PULL_OVER" => bounds::PullOverKind::Emergency,
         _ => bounds::PullOverKind::Destination,
     };
@@ -251,7 +254,7 @@ fn memory(status: &Status) -> bounds::Memory {
         .filter(|_| change.exist_lane_change_start_position);
     bounds::Memory {
         change_lane: bounds::ChangeLane {
-            is_clear: change.is_clear_to_change_lane,
+            is_clear: change.is_clear,
             start: start.map(|start| Vec2::new(start.x, start.y)),
         },
         pull_over: bounds::PullOver {
@@ -348,8 +351,8 @@ fn compare_bounds(expected: &[Boundary], got: &[bounds::PathBound], names: &[Str
 
 fn compare_bound(expected: &Boundary, got: &bounds::PathBound, names: &[String]) -> Result<(), String> {
     let label = &expected.label;
-    if expected.boundary.len() != got.points.len() {
-        let (wanted, have) = (expected.boundary.len(), got.points.len());
+    if expected.points.len() != got.points.len() {
+        let (wanted, have) = (expected.points.len(), got.points.len());
         return Err(format!("{label}: expected {wanted} points, got {have}"));
     }
     let off_start = (expected.start_s - got.start_s()).abs();
@@ -360,9 +363,10 @@ fn compare_bound(expected: &Boundary, got: &bounds::PathBound, names: &[String])
             expected.start_s
         ));
     }
-    for (i, ((l_min, l_max), point)) in expected.boundary.iter().zip(&got.points).enumerate() {
-        let off = (point.l_min - l_min).abs().max((point.l_max - l_max).abs());
-        if !(off <= BOUND_TOLERANCE) {
+    for (i, ((l_min, l_max), point)) in expected.points.iter().zip(&got.points).enumerate() {
+        // Written so that a bound that is no number is off.
+        let is_right = |have: f64, wanted: f64| (have - wanted).abs() <= BOUND_TOLERANCE;
+        if !is_right(point.l_min, *l_min) || !is_right(point.l_max, *l_max) {
             let have = (point.l_min, point.l_max);
             return Err(format!(
                 "{label}: point {i} is {have:?}, expected {:?}",
@@ -410,7 +414,8 @@ fn compare_memory(world: &StubWorld, expected: &Expected, memory: &bounds::Memor
                 (have.width_left, wanted.width_left),
                 (have.width_right, wanted.width_right),
             ];
-            if off > PLACE_TOLERANCE || room.iter().any(|(a, b)| (a - b).abs() > PLACE_TOLERANCE) {
+            let fits = room.iter().all(|(a, b)| (a - b).abs() <= PLACE_TOLERANCE);
+            if off.is_nan() || off > PLACE_TOLERANCE || !fits {
                 return Err(format!(
                     "pull-over place is {have:?}, expected heading {}",
                     wanted.theta

@@ -1,13 +1,28 @@
 //! Convex polygons: footprints of cars, obstacles and their swept copies.
 
 use super::{Pose, Vec2, cross};
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// A convex polygon, vertices counter-clockwise, at least three.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct ConvexPolygon {
+    #[serde(deserialize_with = "at_least_three")]
     vertices: Vec<Vec2>,
+}
+
+/// What a file calls a polygon must at least enclose something.
+fn at_least_three<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Vec2>, D::Error> {
+    let vertices = Vec::<Vec2>::deserialize(deserializer)?;
+    if vertices.len() < 3 {
+        let found = format!(
+            "an outline of {} points; a polygon has three or more",
+            vertices.len()
+        );
+        return Err(D::Error::custom(found));
+    }
+    Ok(vertices)
 }
 
 impl ConvexPolygon {

@@ -13,6 +13,9 @@ const STEEPEST: f64 = 0.36;
 /// cars and a metre or two. Even who cuts in looks over the shoulder: running into a car beside is no test of it.
 const BESIDE: (f64, f64) = (-8.0, 5.0);
 
+/// Who will be beside within this time is seen in the mirror, s.
+const SHOULDER_TIME: f64 = 1.5;
+
 /// How far aside the ego is then at most, m.
 const NEXT_LANE: f64 = 6.0;
 
@@ -42,7 +45,9 @@ impl Manoeuvre {
         if self.under_way.is_none() {
             let pose = follower.motion().0;
             let ego = pose.to_local(moment.ego);
-            let is_beside = ego.x > BESIDE.0 && ego.x < BESIDE.1 && ego.y.abs() < NEXT_LANE;
+            let closing = (moment.ego_v - follower.speed).max(0.0);
+            let is_beside =
+                ego.x > BESIDE.0 - closing * SHOULDER_TIME && ego.x < BESIDE.1 && ego.y.abs() < NEXT_LANE;
             if is_beside || !moment.sets_off(self.plan.trigger, pose.position()) {
                 return;
             }

@@ -55,6 +55,8 @@ struct Moment {
     time: f64,
     /// The ego's reference point.
     ego: Vec2,
+    /// The ego's speed, m/s.
+    ego_v: f64,
 }
 
 impl Moment {
@@ -170,6 +172,7 @@ impl Agents {
         let moment = Moment {
             time: f64::from(self.steps) * dt,
             ego: ego.pose.position(),
+            ego_v: ego.v,
         };
         for moved in &mut self.moving {
             let place = moved.id.0 as usize;

@@ -53,7 +53,16 @@ const shown = (tick) => tick.candidates
 function paintSurface(context, map, line) {
   const [ox, oy] = map(0, 0);
   const [ax, ay] = map(1, 1);
-  paintGround(context, groundOnLine(line), new DOMMatrix([ax - ox, 0, 0, ay - oy, ox, oy]), ax - ox, 2);
+  const matrix = new DOMMatrix([ax - ox, 0, 0, ay - oy, ox, oy]);
+  for (const part of line.last > 1 ? groundOnLine(line, map.s0, map.s1) : []) {
+    const [left, right] = [Math.max(part.from, map.s0), Math.min(part.to, map.s1)].map((s) => map(s, 0)[0]);
+    context.save();
+    context.beginPath();
+    context.rect(Math.floor(left), 0, Math.ceil(right) - Math.floor(left), GUTTER.top + map.h);
+    context.clip();
+    paintGround(context, part, matrix, ax - ox, 2);
+    context.restore();
+  }
   // What the line itself says of its lane and of the road's edge: this is what bounds are made from.
   for (const [side, sign] of [[0, 1], [1, -1]]) {
     for (const [widths, ink, width] of [[line.lane, "lane-edge", 1], [line.road, "surface-edge", 1.6]]) {
@@ -182,13 +191,14 @@ function paintShapes(context, map, tick) {
 /// The place to pull over and the destination, as the line sees them.
 function paintTargetOnLine(context, map, tick) {
   const line = lineCaches[tick.line];
-  if (tick.destination) paintPin(context, map(...toLine(line, ...tick.destination)));
+  const place = (x, y) => map(...toLineNear(line, tick.sl[0], x, y));
+  if (tick.destination) paintPin(context, place(...tick.destination));
   if (!tick.pull_over) return;
   const [x, y, theta] = tick.pull_over;
   targetStroke(context);
-  egoOutline(context, (wx, wy) => map(...toLine(line, wx, wy)), x, y, theta);
+  egoOutline(context, place, x, y, theta);
   context.stroke();
-  paintCross(context, map(...toLine(line, x, y)));
+  paintCross(context, place(x, y));
 }
 
 function paintShapeNames(context, map, tick) {

@@ -19,7 +19,7 @@ function situation(tick) {
     ["wheels", `${signed((steer * 180) / Math.PI, 1)}°`],
     ["command", `${run.texts[tick.command]}, at most ${fixed(series.cruise_speed[state.k], 1)} m/s`],
     ["stop", tick.stop === null ? "none" : run.texts[tick.stop] + (tick.stop_at ? `, ${fixed(tick.stop_at[0], 1)} m ahead` : "")],
-    ["place", tick.pull_over ? (([s, l]) => `to pull over: s ${fixed(s)} m, l ${signed(l)} m`)(toLine(lineCaches[tick.line], ...tick.pull_over)) : null],
+    ["place", tick.pull_over ? (([s, l]) => `to pull over: s ${fixed(s)} m, l ${signed(l)} m`)(toLineNear(lineCaches[tick.line], tick.sl[0], ...tick.pull_over)) : null],
     ["outcome", element("span", { class: tick.normal ? null : "fail" }, run.texts[tick.outcome])],
     ["state", element("span", { class: "mono" }, tick.hash)],
   ]);

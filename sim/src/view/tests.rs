@@ -65,6 +65,31 @@ fn every_reference_in_the_data_leads_somewhere() {
 }
 
 #[test]
+fn a_stop_lies_on_the_path() {
+    let data = data(&page(&synthetic::trace(200, 4)));
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    let mut stops = 0;
+    for tick in data["ticks"].as_array().unwrap() {
+        let path: Vec<f64> = tick["path"].as_array().unwrap().iter().map(number).collect();
+        let Some(stop) = tick["stop_at"].as_array() else {
+            continue;
+        };
+        let [_, s, l, x, y, _] = [0, 1, 2, 3, 4, 5].map(|k| number(&stop[k]));
+        let Some(k) = (4..path.len()).step_by(4).find(|k| path[*k] >= s) else {
+            continue;
+        };
+        stops += 1;
+        let share = (s - path[k - 4]) / (path[k] - path[k - 4]);
+        for (row, value) in [(1, l), (2, x), (3, y)] {
+            let on_path = path[k - 4 + row] + share * (path[k + row] - path[k - 4 + row]);
+            // The page's path is thinned to four millimetres.
+            assert!((on_path - value).abs() < 0.02, "row {row}: {on_path} or {value}");
+        }
+    }
+    assert!(stops > 20, "{stops} stops seen");
+}
+
+#[test]
 fn parked_cars_are_written_once() {
     let few = data(&page(&synthetic::trace(100, 20)));
     let obstacles = few["obstacles"].as_array().unwrap();

@@ -182,18 +182,17 @@ fn fits(point: &BoundPoint, station: &Station, input: &Input, window: Window) ->
 }
 
 /// Whether the car can turn in to the place: two arcs of opposite bend move it aside by `κ d² / 4` over a
-/// distance `d`, and all the way the corridor must reach as far right.
+/// distance `d`. So far right the corridor must reach all the way, and so near the ego must be.
 fn is_reachable(bound: &[BoundPoint], input: &Input, index: usize, window: Window) -> bool {
     let kappa = TURN_IN_SHARE / input.vehicle.min_turn_radius;
     let place = bound[index].l_min + window.width / 2.0;
-    bound[..index]
-        .iter()
-        .rev()
-        .take_while(|point| bound[index].s - point.s <= TURN_IN_LENGTH)
-        .all(|point| {
-            let d = (bound[index].s - point.s - STRAIGHTEN).max(0.0);
-            point.l_min <= place + kappa * d * d / 4.0
-        })
+    let leftmost = |s: f64| {
+        let d = (bound[index].s - s - STRAIGHTEN).max(0.0);
+        place + kappa * d * d / 4.0
+    };
+    let near = |point: &&BoundPoint| bound[index].s - point.s <= TURN_IN_LENGTH;
+    let mut before = bound[..index].iter().rev().take_while(near);
+    input.ego.l <= leftmost(input.ego.s) && before.all(|point| point.l_min <= leftmost(point.s))
 }
 
 /// Where in the window the rear axle stands: the car is centred in it, by its length ahead and behind.

@@ -34,8 +34,8 @@ pub struct Station {
     pub neighbours: [Option<f64>; 4],
 }
 
-/// Samples the line from the ego to the end of the horizon. Empty when the ego is at or past the line's end, or absurdly
-/// far before its start.
+/// Samples the line from the ego to the end of the horizon. Empty when the ego is at or past the line's end, or
+/// nowhere near the line.
 pub(super) fn sample<L: LineQuery + ?Sized>(line: &L, input: &Input) -> Vec<Station> {
     let cruise = if input.cruise_speed > 0.0 {
         input.cruise_speed
@@ -45,7 +45,7 @@ pub(super) fn sample<L: LineQuery + ?Sized>(line: &L, input: &Input) -> Vec<Stat
     let reach = HORIZON
         .max(cruise * input.config.trajectory_time_length)
         .min(LONGEST_HORIZON);
-    if input.ego.s.abs() > FARTHEST {
+    if input.ego.s.is_nan() || input.ego.s.abs() > FARTHEST {
         return Vec::new();
     }
     let end = (input.ego.s + reach).min(line.length());

@@ -12,5 +12,6 @@ mod pull_over;
 mod quirks_around_obstacles;
 mod quirks_of_the_road;
 mod random;
+mod rigid_move;
 mod setup;
 mod wild;

@@ -39,8 +39,8 @@ proptest! {
             Section { from: junction.0, junction: true, ..PLAIN },
             Section { from: junction.0 + junction.1, ..PLAIN },
         ];
-        for k in 1..sections.len() {
-            sections[k].road = Some((5.0, if sections[k].from < change { near } else { far }));
+        for section in &mut sections[1..] {
+            section.road = Some((5.0, if section.from < change { near } else { far }));
         }
         sections[1..].sort_by(|a, b| a.from.total_cmp(&b.from));
         // The section of the kerb's change may lie inside the junction.
