@@ -10,20 +10,28 @@ pub(super) struct Limit {
     pub cause: EdgeCause,
 }
 
-/// A point without limits.
-pub(super) fn unbounded_at(s: f64) -> BoundPoint {
-    BoundPoint {
+/// The point that two limits leave at a station; `None` where that is nothing. A limit that is no number is none.
+pub(super) fn between(s: f64, right: Limit, left: Limit) -> Option<BoundPoint> {
+    let (l_min, l_max) = (right.l.max(-f64::MAX), left.l.min(f64::MAX));
+    (l_min <= l_max).then_some(BoundPoint {
         s,
-        l_min: -f64::MAX,
-        l_max: f64::MAX,
-        right: EdgeCause::Unbounded,
-        left: EdgeCause::Unbounded,
-    }
+        l_min,
+        l_max,
+        right: right.cause,
+        left: left.cause,
+    })
 }
 
 /// A bound without limits at every station.
 pub(super) fn unbounded(stations: &[Station]) -> Vec<BoundPoint> {
-    stations.iter().map(|station| unbounded_at(station.s)).collect()
+    let open = |station: &Station| BoundPoint {
+        s: station.s,
+        l_min: -f64::MAX,
+        l_max: f64::MAX,
+        right: EdgeCause::Unbounded,
+        left: EdgeCause::Unbounded,
+    };
+    stations.iter().map(open).collect()
 }
 
 /// Narrows a point to what both it and the limits allow. When that is nothing the point stays as it was and

@@ -139,36 +139,36 @@ fn forbidden_intervals(
     beside: &[Beside],
     widening: Widening,
 ) -> Vec<Forbidden> {
+    let mut all = Vec::with_capacity(beside.len());
     let reached = beside.iter().take_while(|obstacle| obstacle.first < stations);
-    reached
-        .filter_map(|obstacle| forbidden_by(obstacle, input, widening))
-        .collect()
+    all.extend(reached.filter_map(|obstacle| forbidden_by(obstacle, input, widening)));
+    all
 }
 
 /// What one obstacle forbids, if that is anything.
 fn forbidden_by(obstacle: &Beside, input: &Input, widening: Widening) -> Option<Forbidden> {
     let half_width = input.vehicle.half_width();
-    // Beside the ego the buffer gives way rather than demand a jump, and the side is chosen.
-    let is_beside = obstacle.first == 0;
-    let buffer = |room: f64| {
-        let kept = if is_beside {
-            room - half_width - EGO_SLACK
-        } else {
-            widening.lateral
-        };
-        kept.max(widening.hard.min(widening.lateral))
-            .min(widening.lateral)
-    };
     let right = obstacle.start_l.min(obstacle.end_l);
     let left = obstacle.start_l.max(obstacle.end_l);
-    let (room_left, room_right) = (input.ego.l - left, right - input.ego.l);
-    let only = match (room_left >= 0.0, room_right >= 0.0) {
-        (true, _) => Some(Side::Left),
-        (_, true) => Some(Side::Right),
-        _ => None,
-    };
-    let l_min = right - half_width - buffer(room_right);
-    let l_max = left + half_width + buffer(room_left);
+    let (mut buffer_right, mut buffer_left) = (widening.lateral, widening.lateral);
+    let mut only = None;
+    if obstacle.first == 0 {
+        // Beside the ego the buffer gives way rather than demand a jump, and the side is chosen.
+        let kept = |room: f64| {
+            (room - half_width - EGO_SLACK)
+                .max(widening.hard.min(widening.lateral))
+                .min(widening.lateral)
+        };
+        let (room_left, room_right) = (input.ego.l - left, right - input.ego.l);
+        (buffer_right, buffer_left) = (kept(room_right), kept(room_left));
+        only = match (room_left >= 0.0, room_right >= 0.0) {
+            (true, _) => Some(Side::Left),
+            (_, true) => Some(Side::Right),
+            _ => None,
+        };
+    }
+    let l_min = right - half_width - buffer_right;
+    let l_max = left + half_width + buffer_left;
     (l_min < l_max).then_some(Forbidden {
         id: obstacle.id,
         start_s: obstacle.start_s,
@@ -177,48 +177,44 @@ fn forbidden_by(obstacle: &Beside, input: &Input, widening: Widening) -> Option<
         l_min,
         l_max,
         remembered: obstacle.remembered,
-        only: only.filter(|_| is_beside),
+        only,
     })
 }
 
 /// The obstacles beside one station, moved along the bound.
 struct Active<'a> {
     /// By ascending right edge.
-    beside: Vec<Forbidden>,
+    beside: Vec<&'a Forbidden>,
     /// Those still to come.
-    ahead: &'a [Forbidden],
-    /// The rightmost and the leftmost `l` of the whole bound: what lies beyond narrows nothing.
-    extent: (f64, f64),
+    ahead: std::iter::Peekable<std::vec::IntoIter<&'a Forbidden>>,
 }
 
 impl<'a> Active<'a> {
+    /// All that narrow the bound somewhere, or that the ego is beside: what lies outside changes no gap.
     fn of(all: &'a [Forbidden], bound: &[BoundPoint]) -> Self {
+        let (right, left) = bound.iter().fold((f64::MAX, -f64::MAX), |(right, left), point| {
+            (right.min(point.l_min), left.max(point.l_max))
+        });
+        let matters = |o: &&Forbidden| (o.l_max > right && o.l_min < left) || o.only.is_some();
+        let mut ahead = Vec::with_capacity(all.len());
+        ahead.extend(all.iter().filter(matters));
         Self {
-            beside: Vec::with_capacity(all.len()),
-            ahead: all,
-            extent: bound.iter().fold((f64::MAX, -f64::MAX), |(right, left), point| {
-                (right.min(point.l_min), left.max(point.l_max))
-            }),
+            beside: Vec::with_capacity(ahead.len()),
+            ahead: ahead.into_iter().peekable(),
         }
     }
 
     fn move_to(&mut self, station: usize) {
         self.beside.retain(|obstacle| obstacle.past > station);
-        while let Some((obstacle, rest)) = self.ahead.split_first()
-            && obstacle.first <= station
-        {
-            let narrows = obstacle.l_max > self.extent.0 && obstacle.l_min < self.extent.1;
-            if narrows || obstacle.only.is_some() {
-                let place = self.beside.partition_point(|other| other.l_min <= obstacle.l_min);
-                self.beside.insert(place, *obstacle);
-            }
-            self.ahead = rest;
+        while let Some(obstacle) = self.ahead.next_if(|obstacle| obstacle.first <= station) {
+            let place = self.beside.partition_point(|other| other.l_min <= obstacle.l_min);
+            self.beside.insert(place, obstacle);
         }
     }
 
     /// The next station at which an obstacle begins or ends.
-    fn next_change(&self) -> usize {
-        let next = self.ahead.first().map_or(usize::MAX, |obstacle| obstacle.first);
+    fn next_change(&mut self) -> usize {
+        let next = self.ahead.peek().map_or(usize::MAX, |obstacle| obstacle.first);
         self.beside
             .iter()
             .map(|obstacle| obstacle.past)
@@ -226,15 +222,15 @@ impl<'a> Active<'a> {
     }
 }
 
-/// How many points have the edges of the first one.
+/// How many points have the edges of the first one. Where only the causes differ, gaps do not.
 fn count_alike(points: &[BoundPoint]) -> usize {
-    let edges = |p: &BoundPoint| (p.l_min.to_bits(), p.l_max.to_bits(), p.right, p.left);
-    let alike = |p: &&BoundPoint| edges(p) == edges(&points[0]);
-    points.iter().take_while(alike).count()
+    let edges = |p: &BoundPoint| (p.l_min.to_bits(), p.l_max.to_bits());
+    let first = edges(&points[0]);
+    points.iter().take_while(|p| edges(p) == first).count()
 }
 
 /// Calls `found` for each free interval of a station, from right to left. `active` is sorted by `l_min`.
-fn open_gaps(point: &BoundPoint, active: &[Forbidden], mut found: impl FnMut(Limit, Limit)) {
+fn open_gaps(point: &BoundPoint, active: &[&Forbidden], mut found: impl FnMut(Limit, Limit)) {
     let mut right = Limit {
         l: point.l_min,
         cause: point.right,
@@ -287,7 +283,7 @@ struct Entry {
 
 impl Entry {
     /// The best chain into a gap from the slab before, if any of its gaps touches it; the leftmost of equals.
-    fn best(&self, before: &[Gap], right: Limit, left: Limit, active: &[Forbidden]) -> Option<Gap> {
+    fn best(&self, before: &[Gap], right: Limit, left: Limit, active: &[&Forbidden]) -> Option<Gap> {
         let flips = flip_cost(right, left, active, self.first);
         let narrow = (COMFORTABLE_WIDTH - (left.l - right.l)).max(0.0) * NARROW_WEIGHT;
         let entered = |from: f64, cost: f64, parent: usize| {
@@ -303,7 +299,7 @@ impl Entry {
         };
         if self.is_first {
             // The ego cannot jump across what it is beside.
-            let jumps = |obstacle: &Forbidden| {
+            let jumps = |obstacle: &&Forbidden| {
                 obstacle
                     .only
                     .is_some_and(|only| only != obstacle.side_of(right.l))
@@ -323,7 +319,7 @@ impl Entry {
 }
 
 /// Surcharges for the obstacles that begin at this station and would be passed on another side than before.
-fn flip_cost(right: Limit, left: Limit, active: &[Forbidden], i: usize) -> f64 {
+fn flip_cost(right: Limit, left: Limit, active: &[&Forbidden], i: usize) -> f64 {
     let flips = active.iter().filter(|obstacle| {
         debug_assert!(obstacle.l_max <= right.l || obstacle.l_min >= left.l);
         let side = obstacle.side_of(right.l);
@@ -336,7 +332,7 @@ fn flip_cost(right: Limit, left: Limit, active: &[Forbidden], i: usize) -> f64 {
 /// stands in a gap by which the station before can be left. Those all begin here, because a gap is clear of what
 /// began before; the nearest in `s` is named, then the least id. Where nothing new stands in the way the road
 /// itself closes a gap: then it is the obstacle begun last among those that stand between the bound's edges.
-fn closer(active: &[Forbidden], before: &[Gap], point: &BoundPoint) -> Option<ObstacleId> {
+fn closer(active: &[&Forbidden], before: &[Gap], point: &BoundPoint) -> Option<ObstacleId> {
     let stands_in =
         |obstacle: &Forbidden, right: f64, left: f64| obstacle.l_min < left && right < obstacle.l_max;
     let in_a_gap = |obstacle: &&Forbidden| {
@@ -347,9 +343,10 @@ fn closer(active: &[Forbidden], before: &[Gap], point: &BoundPoint) -> Option<Ob
     let in_the_bound = |obstacle: &&Forbidden| stands_in(obstacle, point.l_min, point.l_max);
     let nearest = |a: &&Forbidden, b: &&Forbidden| a.start_s.total_cmp(&b.start_s).then(a.id.cmp(&b.id));
     let latest = |a: &&Forbidden, b: &&Forbidden| a.first.cmp(&b.first).then(nearest(b, a));
-    let named = active.iter().filter(in_a_gap).min_by(nearest);
+    let beside = || active.iter().copied();
+    let named = beside().filter(in_a_gap).min_by(nearest);
     named
-        .or_else(|| active.iter().filter(in_the_bound).max_by(latest))
+        .or_else(|| beside().filter(in_the_bound).max_by(latest))
         .map(|obstacle| obstacle.id)
 }
 
@@ -377,5 +374,7 @@ fn sides(bound: &[BoundPoint], forbidden: &[Forbidden]) -> Vec<(ObstacleId, Side
         let point = bound.get(obstacle.first)?;
         Some((obstacle.id, obstacle.side_of(point.l_min)))
     };
-    forbidden.iter().filter_map(side).collect()
+    let mut all = Vec::with_capacity(forbidden.len());
+    all.extend(forbidden.iter().map_while(side));
+    all
 }

@@ -1,7 +1,7 @@
 //! Limits from the lane, a borrowed lane and the ego itself (`GetBoundaryFromLanesAndADC`).
 
 use super::bound::{Borrow, BoundPoint, EdgeCause, LaneType};
-use super::edges::{Limit, tighten, unbounded_at};
+use super::edges::{Limit, between};
 use super::input::Input;
 use super::stations::Station;
 use crate::road::{BoundaryType, Neighbour, Side};
@@ -33,49 +33,30 @@ pub(super) struct LaneRules {
 /// The bound that the lanes leave, up to where nothing is left, and whose lane is borrowed: `None` when there is
 /// none to borrow.
 pub(super) fn bound(
+    lane: &[OwnLane],
     stations: &[Station],
     input: &Input,
     rules: LaneRules,
 ) -> (Vec<BoundPoint>, Option<LaneType>) {
-    let half_width = input.vehicle.half_width();
-    let here = &stations[0];
-    let lane_width = here.lane.map_or(DEFAULT_LANE_WIDTH, |(left, right)| left + right);
-    let mut edges = LaneEdges::new(lane_width / 2.0);
     let extension = (input.config.is_extend_lane_bounds_to_include_adc || rules.force_extend)
-        .then(|| Extension::new(input, here.offset, rules.buffer));
+        .then(|| Extension::new(input, stations[0].offset, rules.buffer));
     let mut borrowed = None;
     let mut bound = Vec::with_capacity(stations.len());
 
-    for station in stations {
-        edges.update(station);
+    for (own, station) in lane.iter().zip(stations) {
         let neighbour = borrowed_width(station, input, rules.borrow);
         if let Some((_, reverse)) = neighbour {
             borrowed = Some(borrowed.unwrap_or(false) || reverse);
         }
-        let (left, right) = edges.with_neighbour(rules.borrow, neighbour.map(|(width, _)| width));
-        let (left, right) = match &extension {
-            Some(extension) => extension.widen(left, right, station.s - input.ego.s),
-            None => (left, right),
-        };
-        let coeff = |is_lane| {
-            if is_lane {
-                input.config.adc_buffer_coeff
-            } else {
-                1.0
-            }
-        };
-        let left = Limit {
-            l: (left.l - station.offset) - coeff(edges.left_is_lane) * half_width,
-            ..left
-        };
-        let right = Limit {
-            l: (right.l - station.offset) + coeff(edges.right_is_lane) * half_width,
-            ..right
-        };
-        let mut point = unbounded_at(station.s);
-        if !tighten(&mut point, right, left) {
-            break;
+        let (mut left, mut right) = own.with_neighbour(rules.borrow, neighbour.map(|(width, _)| width));
+        if let Some(extension) = &extension {
+            (left, right) = extension.widen(left, right, own.s - input.ego.s);
         }
+        left.l = (left.l - own.offset) - own.beside_left;
+        right.l = (right.l - own.offset) + own.beside_right;
+        let Some(point) = between(own.s, right, left) else {
+            break;
+        };
         bound.push(point);
     }
     let lane = lane_type(rules.borrow, borrowed, input.config.quirks.borrows_phantom_lane);
@@ -91,34 +72,58 @@ fn lane_type(borrow: Borrow, borrowed: Option<bool>, phantom: bool) -> Option<La
     }
 }
 
-/// Edges of the own lane in the frame of its centre line; what the map does not tell is carried on.
-struct LaneEdges {
+/// The own lane at one station, in the frame of its centre line: the same for all candidates of a call.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OwnLane {
+    s: f64,
+    /// Lateral position of the reference line.
+    offset: f64,
+    /// Distances to its edges.
     left: f64,
     right: f64,
-    left_is_lane: bool,
-    right_is_lane: bool,
+    /// Room that the car's body needs beside each edge.
+    beside_left: f64,
+    beside_right: f64,
 }
 
-impl LaneEdges {
-    fn new(half_width: f64) -> Self {
-        Self {
-            left: half_width,
-            right: half_width,
-            left_is_lane: true,
-            right_is_lane: true,
+/// The own lane at every station; what the map does not tell is carried on.
+pub(super) fn own(stations: &[Station], input: &Input) -> Vec<OwnLane> {
+    let half_width = input.vehicle.half_width();
+    let beside_line = input.config.adc_buffer_coeff * half_width;
+    let half_lane = stations
+        .first()
+        .and_then(|here| here.lane)
+        .map_or(DEFAULT_LANE_WIDTH, |(left, right)| left + right)
+        / 2.0;
+    let (mut left, mut right) = (half_lane, half_lane);
+    let (mut beside_left, mut beside_right) = (beside_line, beside_line);
+    let at = |station: &Station| {
+        if let Some(lane) = station.lane {
+            if let Some(road) = station.road {
+                let room = |lane: f64, road: f64| {
+                    if (road - lane).abs() > SAME_EDGE {
+                        beside_line
+                    } else {
+                        half_width
+                    }
+                };
+                (beside_left, beside_right) = (room(lane.0, road.0), room(lane.1, road.1));
+            }
+            (left, right) = (lane.0 + station.offset, lane.1 - station.offset);
         }
-    }
-
-    fn update(&mut self, station: &Station) {
-        let Some((left, right)) = station.lane else { return };
-        if let Some((road_left, road_right)) = station.road {
-            self.left_is_lane = (road_left - left).abs() > SAME_EDGE;
-            self.right_is_lane = (road_right - right).abs() > SAME_EDGE;
+        OwnLane {
+            s: station.s,
+            offset: station.offset,
+            left,
+            right,
+            beside_left,
+            beside_right,
         }
-        self.left = left + station.offset;
-        self.right = right - station.offset;
-    }
+    };
+    stations.iter().map(at).collect()
+}
 
+impl OwnLane {
     /// Left and right limit, with a borrowed lane's width on its side.
     fn with_neighbour(&self, borrow: Borrow, width: Option<f64>) -> (Limit, Limit) {
         let own = |side: f64| Limit {
@@ -192,6 +197,10 @@ impl Extension {
     }
 
     fn widen(&self, left: Limit, right: Limit, ahead: f64) -> (Limit, Limit) {
+        let (beyond_left, beyond_right) = (self.left > left.l, self.right < right.l);
+        if !beyond_left && !beyond_right {
+            return (left, right);
+        }
         let share = match self.fade {
             None => 1.0,
             Some((from, to)) => ((to - ahead) / (to - from)).clamp(0.0, 1.0),
@@ -211,8 +220,8 @@ impl Extension {
             }
         };
         (
-            widened(left, self.left, self.left > left.l),
-            widened(right, self.right, self.right < right.l),
+            widened(left, self.left, beyond_left),
+            widened(right, self.right, beyond_right),
         )
     }
 }

@@ -31,7 +31,7 @@ pub(crate) use stations::station;
 use crate::frame::ObstacleId;
 use crate::reference_line::LineQuery;
 use crate::road::Side;
-use lanes::LaneRules;
+use lanes::{LaneRules, OwnLane};
 use obstacles::{Beside, Passage, Widening};
 
 /// Room beside the ego in the fallback bound, m.
@@ -86,6 +86,19 @@ impl PathBounds {
     }
 }
 
+/// What all candidates of a call share.
+struct Survey {
+    stations: Vec<Station>,
+    lane: Vec<OwnLane>,
+    beside: Vec<Beside>,
+}
+
+impl Survey {
+    fn lane_bound(&self, input: &Input, rules: LaneRules) -> (Vec<BoundPoint>, Option<LaneType>) {
+        lanes::bound(&self.lane, &self.stations, input, rules)
+    }
+}
+
 /// A bound before it gets its label.
 struct Made {
     points: Vec<BoundPoint>,
@@ -110,8 +123,12 @@ pub fn decide<L: LineQuery + ?Sized>(
     if stations.is_empty() {
         return Err(PathBoundsError::NoStations);
     }
-    let beside = obstacles::beside(&stations, input, &memory.passed);
-    let fallback = fallback(&stations, input, &beside);
+    let survey = Survey {
+        lane: lanes::own(&stations, input),
+        beside: obstacles::beside(&stations, input, &memory.passed),
+        stations,
+    };
+    let fallback = fallback(&survey, input);
     if fallback.points.is_empty() {
         return Err(PathBoundsError::EmptyFallback);
     }
@@ -120,7 +137,7 @@ pub fn decide<L: LineQuery + ?Sized>(
     result.push(Label::Fallback, fallback, blocker);
 
     if memory.pull_over.is_requested {
-        match pull_over::bound(&stations, &beside, line, input, memory) {
+        match pull_over::bound(&survey.stations, &survey.beside, line, input, memory) {
             Ok((points, passage)) => {
                 check_ego_inside(&points, input, Label::PullOver)?;
                 let blocker = passage.blocked_by.filter(|_| !input.config.quirks.silent_blocker);
@@ -141,21 +158,21 @@ pub fn decide<L: LineQuery + ?Sized>(
         }
     }
     if input.is_change_lane && input.config.enable_smarter_lane_change {
-        lane_change(&mut result, &stations, &beside, line, input, memory)?;
+        lane_change(&mut result, &survey, line, input, memory)?;
     } else {
-        regular(&mut result, &stations, &beside, input)?;
+        regular(&mut result, &survey, input)?;
     }
     Ok(result)
 }
 
 /// The bound in which some path practically always exists.
-fn fallback(stations: &[Station], input: &Input, beside: &[Beside]) -> Made {
+fn fallback(survey: &Survey, input: &Input) -> Made {
     let rules = LaneRules {
         borrow: Borrow::None,
         buffer: FALLBACK_EGO_BUFFER,
         force_extend: true,
     };
-    let (mut points, _) = lanes::bound(stations, input, rules);
+    let (mut points, _) = survey.lane_bound(input, rules);
     let mut passage = Passage::default();
     if !input.config.quirks.fallback_ignores_obstacles {
         let config = input.config;
@@ -163,10 +180,10 @@ fn fallback(stations: &[Station], input: &Input, beside: &[Beside]) -> Made {
             lateral: config.fallback_obstacle_lat_buffer,
             hard: config.hard_obstacle_lat_buffer,
         };
-        passage = obstacles::limit(&mut points, input, beside, widening);
+        passage = obstacles::limit(&mut points, input, &survey.beside, widening);
         // An ego that already touches a widened obstacle still needs a bound to brake in.
         if points.is_empty() {
-            (points, _) = lanes::bound(stations, input, rules);
+            (points, _) = survey.lane_bound(input, rules);
         }
     }
     Made {
@@ -179,8 +196,7 @@ fn fallback(stations: &[Station], input: &Input, beside: &[Beside]) -> Made {
 /// Into the target lane, once the zone before it allows.
 fn lane_change<L: LineQuery + ?Sized>(
     result: &mut PathBounds,
-    stations: &[Station],
-    beside: &[Beside],
+    survey: &Survey,
     line: &L,
     input: &Input,
     memory: &mut Memory,
@@ -190,9 +206,15 @@ fn lane_change<L: LineQuery + ?Sized>(
         buffer: EGO_BUFFER,
         force_extend: true,
     };
-    let (mut points, _) = lanes::bound(stations, input, rules);
-    lane_change::keep_out(&mut points, stations, line, input, &mut memory.change_lane);
-    let made = around_obstacles(points, input, beside);
+    let (mut points, _) = survey.lane_bound(input, rules);
+    lane_change::keep_out(
+        &mut points,
+        &survey.stations,
+        line,
+        input,
+        &mut memory.change_lane,
+    );
+    let made = around_obstacles(points, input, &survey.beside);
     if made.points.is_empty() {
         if input.config.quirks.lane_change_discards_fallback {
             return Err(PathBoundsError::EmptyLaneChange);
@@ -211,22 +233,17 @@ fn lane_change<L: LineQuery + ?Sized>(
 }
 
 /// Along the own lane, then with each lane that may be borrowed.
-fn regular(
-    result: &mut PathBounds,
-    stations: &[Station],
-    beside: &[Beside],
-    input: &Input,
-) -> Result<(), PathBoundsError> {
+fn regular(result: &mut PathBounds, survey: &Survey, input: &Input) -> Result<(), PathBoundsError> {
     for borrow in [Borrow::None].iter().chain(input.borrow) {
         let rules = LaneRules {
             borrow: *borrow,
             buffer: EGO_BUFFER,
             force_extend: false,
         };
-        let (points, Some(lane)) = lanes::bound(stations, input, rules) else {
+        let (points, Some(lane)) = survey.lane_bound(input, rules) else {
             continue;
         };
-        let made = around_obstacles(points, input, beside);
+        let made = around_obstacles(points, input, &survey.beside);
         if made.points.is_empty() {
             continue;
         }
