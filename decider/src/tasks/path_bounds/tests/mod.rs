@@ -7,6 +7,7 @@
 mod causes;
 mod examples;
 mod gaps_against_all_sides;
+mod holes;
 mod metamorphic;
 mod pull_over;
 mod quirks_around_obstacles;
