@@ -55,11 +55,10 @@ impl Decider {
             fault,
         } = self;
         let decide = || match fault {
-            Fault::None => planner.decide(frame, context),
             Fault::Mirrored => planner.decide(&mirrored(frame), context),
             Fault::Panic if frame.tick == SUDDEN => panic!("a planted fault"),
             Fault::Nan if frame.tick >= SUDDEN => not_a_number(planner.decide(frame, context)),
-            Fault::Panic | Fault::Nan => planner.decide(frame, context),
+            Fault::None | Fault::Panic | Fault::Nan => planner.decide(frame, context),
         };
         catch_unwind(AssertUnwindSafe(decide)).map_err(|panic| said(&*panic).to_owned())
     }

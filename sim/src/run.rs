@@ -10,9 +10,10 @@ use std::path::Path;
 
 /// Runs a scenario without keeping anything but the verdict.
 pub fn run(scenario: &Scenario, settings: &Settings) -> Verdict {
-    ClosedLoop::new(scenario, settings)
-        .run(&mut NoSink)
-        .expect("keeping nothing cannot fail")
+    let Ok(verdict) = ClosedLoop::new(scenario, settings).run(&mut NoSink) else {
+        unreachable!("keeping nothing cannot fail");
+    };
+    verdict
 }
 
 /// Runs a scenario and hands every tick to `sink`.
@@ -55,7 +56,9 @@ pub fn run_recorded(
     settings: &Settings,
 ) -> Trace {
     let mut ticks = Recorder(Vec::new());
-    let verdict = run_into(scenario, settings, &mut ticks).expect("keeping in memory cannot fail");
+    let Ok(verdict) = run_into(scenario, settings, &mut ticks) else {
+        unreachable!("keeping in memory cannot fail");
+    };
     Trace {
         header: header(family, scenario, overrides, settings),
         ticks: ticks.0,

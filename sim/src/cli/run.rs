@@ -91,10 +91,17 @@ fn text(verdict: &Verdict) -> String {
             .worst_obstacle
             .as_ref()
             .map_or(String::new(), |name| format!(" `{name}`"));
-        text.push_str(&format!(
-            "{mark} {:28} {value}{threshold}{worst}{whom}\n",
-            metric.name
-        ));
+        let name = &metric.name;
+        let line = [
+            mark.to_string(),
+            format!(" {name:28} "),
+            value,
+            threshold,
+            worst,
+            whom,
+            "\n".to_owned(),
+        ];
+        text.extend(line);
     }
     text + &format!("digest {}\n", verdict.digest)
 }

@@ -105,11 +105,12 @@ fn timed<T>(run: impl FnOnce() -> T) -> (T, Duration) {
 
 /// The command that runs one job again.
 fn replay_command(given: &str, seed: u64, overrides: &[String]) -> String {
-    let settings: String = overrides
-        .iter()
-        .map(|setting| format!(" --set {setting}"))
-        .collect();
-    format!("corridor run {given} --seed {seed}{settings}")
+    let mut command = format!("corridor run {given} --seed {seed}");
+    for setting in overrides {
+        command.push_str(" --set ");
+        command.push_str(setting);
+    }
+    command
 }
 
 /// The family of a row in a plan, to run it again with a trace.
