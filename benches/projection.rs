@@ -19,7 +19,7 @@ const LENGTH: f64 = 1000.0;
 fn points(line: &ReferenceLine, l: f64) -> Vec<Vec2> {
     let point = |k: u32| {
         let s = LENGTH * (f64::from(k) + 0.371) / f64::from(POINTS);
-        let l = if k % 2 == 0 { l } else { -l };
+        let l = if k.is_multiple_of(2) { l } else { -l };
         line.to_cartesian(SlPoint { s, l })
     };
     (0..POINTS).map(point).collect()
