@@ -1,1 +1,114 @@
-//! Planted faults: what a sweep must catch.
+//! Planted faults: seeds that pass with the decider as it is must fail with a broken one. A testbed that stays green
+//! with a broken decider is broken itself.
+//!
+//! Not every unsafe switch can be seen in a closed loop, because a later layer covers for it:
+//! * `pad_through_blocker` extends a bound through its blocker, but the blocker stays named, so the speed layer stops
+//!   for it, and the path ends anyway where the footprint would touch something.
+//! * `corner_collision_check` misses what is thinner than the car, but only the fallback bound can lead over such a
+//!   thing, and only with `fallback_ignores_obstacles`: the two are planted together below.
+//! * `crosses_double_yellow` is met by the lane-borrow decider, which asks for a line that may be crossed itself.
+
+use corridor_scenarios::{MapCache, catalog};
+use corridor_sim::run::run;
+use corridor_sim::settings::Settings;
+use corridor_sim::verdict::{Ending, Verdict};
+use std::ops::RangeInclusive;
+
+const FALLBACK: &str = "decider.path_bounds.quirks.fallback_ignores_obstacles=true";
+const CORNERS: &str = "decider.path.corner_collision_check=true";
+
+/// Verdicts of these seeds that did not pass.
+fn failures(scenario: &str, seeds: impl IntoIterator<Item = u64>, overrides: &[&str]) -> Vec<Verdict> {
+    let entry = catalog::find(scenario).unwrap_or_else(|| panic!("no scenario `{scenario}`"));
+    let family = entry
+        .load(&MapCache::new())
+        .unwrap_or_else(|error| panic!("{error}"));
+    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+    let settings = Settings::with(&overrides).unwrap_or_else(|error| panic!("{error}"));
+    let verdict = |seed| {
+        let drawn = family.draw(seed).unwrap_or_else(|error| panic!("{error}"));
+        run(&drawn.scenario, &settings)
+    };
+    seeds
+        .into_iter()
+        .map(verdict)
+        .filter(|verdict| !verdict.pass)
+        .collect()
+}
+
+/// Checks that all seeds pass, and that at least `least` of them fail with the fault. Returns those.
+fn caught(scenario: &str, seeds: RangeInclusive<u64>, fault: &[&str], least: usize) -> Vec<Verdict> {
+    let without: Vec<String> = failures(scenario, seeds.clone(), &[])
+        .into_iter()
+        .map(|v| v.summary)
+        .collect();
+    assert!(without.is_empty(), "{scenario} without a fault: {without:#?}");
+    let with = failures(scenario, seeds, fault);
+    assert!(
+        with.len() >= least,
+        "{fault:?} was caught in {} runs of {scenario}, not in {least}",
+        with.len()
+    );
+    with
+}
+
+fn collisions(verdicts: &[Verdict]) -> usize {
+    verdicts
+        .iter()
+        .filter(|verdict| verdict.ending == Ending::Collision)
+        .count()
+}
+
+/// It takes the first cone on its right and finds no room; the way left of both stays unused.
+#[test]
+fn greedy_sides_stop_before_an_open_way() {
+    caught(
+        "two_cones",
+        1..=12,
+        &["decider.path_bounds.quirks.greedy_sides=true"],
+        3,
+    );
+}
+
+/// The bound leads so near to the cones that no path in it clears them: the car stands before an open way.
+#[test]
+fn obstacles_without_a_buffer_are_not_passed() {
+    let fault = ["decider.path_bounds.obstacle_lat_buffer=0"];
+    caught("two_cones", 5..=9, &fault, 1);
+    caught("cone_gate", 3..=7, &fault, 1);
+}
+
+#[test]
+fn a_mirrored_world_is_driven_into() {
+    let failed = caught("blocked_sweep", 2..=5, &["fault=mirrored"], 3);
+    assert!(collisions(&failed) >= 3);
+}
+
+/// Too near to the bollard for any bound that knows it, the fallback leads on.
+#[test]
+fn a_fallback_that_ignores_obstacles_creeps_on() {
+    caught("bollard_between_walls", 1..=8, &[FALLBACK], 3);
+}
+
+/// With nothing but the corners checked against it, the path leads over the bollard.
+#[test]
+fn a_bollard_between_the_corners_is_run_over() {
+    let failed = caught("bollard_between_walls", 1..=8, &[FALLBACK, CORNERS], 3);
+    assert!(collisions(&failed) >= 3);
+}
+
+/// Rare: of a hundred hard braking leaders, these.
+#[test]
+fn no_distance_to_the_leader_is_too_little() {
+    let fault = ["decider.speed.follow_time=0", "decider.speed.follow_distance=0"];
+    let seeds = [3, 42, 48, 54, 56];
+    assert!(failures("hard_braking_leader", seeds, &[]).is_empty());
+    assert!(collisions(&failures("hard_braking_leader", seeds, &fault)) >= 2);
+}
+
+#[test]
+fn the_original_with_all_its_defects_is_caught() {
+    let failed = caught("bollard_between_walls", 1..=6, &["profile=apollo"], 4);
+    assert!(collisions(&failed) >= 3);
+    caught("cone_gate", 1..=7, &["profile=apollo"], 3);
+}
