@@ -59,7 +59,7 @@ fn a_setting_that_matters_changes_the_digest() {
     let usual = report(2, &[]).digest();
     for setting in [
         "decider.path_bounds.obstacle_lat_buffer=0.35",
-        "physics.dynamics.friction=0.5",
+        "physics.dynamics.steer_lag=0.3",
         "tick=0.2",
     ] {
         assert_ne!(report(2, &[setting]).digest(), usual, "{setting}");

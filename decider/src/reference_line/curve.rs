@@ -13,6 +13,9 @@ const FOOT_STEPS: usize = 5;
 /// A Newton step shorter than this has arrived, m: far below what any file keeps, far above rounding.
 const ARRIVED: f64 = 1e-9;
 
+/// A foot farther away than that on the chord by this much is not the nearest point, m.
+const RUN_AWAY: f64 = 1e-3;
+
 /// Least factor `1 − κ l` that is divided by: nearer to the centre of curvature there is no single foot.
 const LEAST_STRETCH: f64 = 0.1;
 
@@ -161,9 +164,9 @@ impl Curve {
         // Beyond the centre of a bend Newton's method runs away from the nearest point: then the chord's foot stays.
         let distance = |(k, t): (usize, f64)| {
             let at = self.between(k, t.clamp(0.0, 1.0));
-            Vec2::new(point.x - at.x, point.y - at.y).norm_squared()
+            Vec2::new(point.x - at.x, point.y - at.y).norm()
         };
-        if distance((k, t)) <= distance(on_chord) {
+        if distance((k, t)) <= distance(on_chord) + RUN_AWAY {
             (k, t)
         } else {
             on_chord

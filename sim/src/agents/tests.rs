@@ -211,7 +211,7 @@ fn a_cut_in_is_smooth_complete_and_takes_its_time() {
     let mut agents = agents(vec![cut_in(&line, 10.0, Trigger::EgoWithin(15.0))]);
     let before = run(&mut agents, &nowhere(), 1.0);
     assert!(before.iter().all(|all| all[0].pose.y == 3.5), "nobody is near");
-    let history = run(&mut agents, &ego_at(28.0, 0.0, 10.0), 6.0);
+    let history = run(&mut agents, &ego_at(25.0, -6.5, 10.0), 6.0);
     let offsets: Vec<f64> = history.iter().map(|all| all[0].pose.y).collect();
     assert!(
         offsets

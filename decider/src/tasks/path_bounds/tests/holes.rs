@@ -47,6 +47,7 @@ fn a_hole_carries_the_road_on() {
             .with(|setup| setup.road.sections = sections)
             .pulling_over(Some(120.0));
         setup.config.quirks.unchecked_road_width = true;
+        setup.config.quirks.road_edge_at_axle = true;
         setup.bound(Label::PullOver)
     };
     let known = Section {
