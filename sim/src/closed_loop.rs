@@ -1,4 +1,4 @@
-//! The closed loop. Start reading here: [`ClosedLoop::tick`] is what Corridor does.
+//! The closed loop. Start reading here: `ClosedLoop::tick` is what Corridor does.
 
 use crate::agents::Agents;
 use crate::clock::Clock;

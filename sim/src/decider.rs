@@ -22,9 +22,9 @@ pub enum Fault {
     None,
     /// Obstacles are seen on the other side of the reference line: `l` with the wrong sign.
     Mirrored,
-    /// The decider panics at tick [`SUDDEN`].
+    /// The decider panics at tick `SUDDEN`.
     Panic,
-    /// From tick [`SUDDEN`] on a number of the trajectory is none.
+    /// From tick `SUDDEN` on a number of the trajectory is none.
     Nan,
 }
 

@@ -7,7 +7,7 @@ use std::fmt;
 
 /// A corridor for the rear axle along one reference line. Half the car's width is already taken off.
 ///
-/// Written compactly: see [`BoundColumns`].
+/// Written compactly: see `BoundColumns`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "BoundColumns")]
 pub struct PathBound {

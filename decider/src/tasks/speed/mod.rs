@@ -1,8 +1,8 @@
 //! Speed along a path: cruise, bends, stops, leaders and crossing traffic.
 //!
 //! A simple layer with one function. The profile is integrated forward in time by the rule "accelerate as the
-//! tightest constraint allows"; constraints are the speed limit ahead ([`limits`]), a stop, and the stretches
-//! of the path that moving obstacles will occupy ([`overlap`]).
+//! tightest constraint allows"; constraints are the speed limit ahead (`limits`), a stop, and the stretches
+//! of the path that moving obstacles will occupy (`overlap`).
 
 mod limits;
 mod overlap;
