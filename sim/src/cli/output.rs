@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Makes sure that [`write`] will be able to write `path`, before any work is done for it. Leaves nothing behind.
+/// Makes sure that `write` will be able to write `path`, before any work is done for it. Leaves nothing behind.
 pub(crate) fn check(path: &Path) -> anyhow::Result<()> {
     anyhow::ensure!(
         !path.is_dir(),
