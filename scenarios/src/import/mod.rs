@@ -4,6 +4,8 @@
 //! line, the column and what would have been right. No input makes it panic or run without end.
 
 mod error;
+mod notes;
 pub mod opendrive;
+mod xml;
 
 pub use error::{ImportError, TextPlace};

@@ -1,8 +1,8 @@
 //! A bound on the size of a map, so that no file can fill the memory or hang its reader.
 
 use super::record::Road;
-use super::xml::Lines;
 use crate::import::ImportError;
+use crate::import::xml::Lines;
 
 /// What a map may cost. A cross-section of a lane counts 1 and a little more when it is very wide: ten lanes of
 /// 100 km cost 2.5 million.

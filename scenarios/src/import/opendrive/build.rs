@@ -5,12 +5,12 @@ use super::connect::{Fate, connect};
 use super::cross_section::{CrossSection, cross_sections};
 use super::lane_build::{centre_line, runs_forward};
 use super::marks::marks;
-use super::notes::Notes;
 use super::record::{JunctionRecord, Road};
 use super::surface::surface;
 use super::topology::Topology;
-use super::xml::{Lines, Place};
 use crate::import::ImportError;
+use crate::import::notes::Notes;
+use crate::import::xml::{Lines, Place};
 use corridor_decider::road::{Junction, JunctionId, Lane, LaneId, LaneKind, Neighbour, RoadMap, Side};
 use std::collections::BTreeMap;
 

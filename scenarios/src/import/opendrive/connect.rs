@@ -3,10 +3,10 @@
 //! A link counts when the centre lines meet. Lanes that were skipped are bridged; where the file links nothing,
 //! lanes that meet exactly are joined.
 
-use super::notes::Notes;
 use super::record::End;
 use super::topology::{Port, Topology, Touch};
-use super::xml::Place;
+use crate::import::notes::Notes;
+use crate::import::xml::Place;
 use corridor_decider::geometry::angle;
 use corridor_decider::road::{Lane, LaneId, LanePoint};
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,10 +1,10 @@
 //! Reads `<lanes>`: sections, lanes, widths, marks and speeds.
 
-use super::notes::Notes;
 use super::profile::{Cubic, Profile};
 use super::record::{Extent, LaneRecord, MarkRecord, Section, SpeedRecord};
-use super::xml::Element;
 use crate::import::ImportError;
+use crate::import::notes::Notes;
+use crate::import::xml::Element;
 use corridor_decider::road::{BoundaryType, LaneKind};
 
 /// Sections by ascending station, and the offset of lane 0.

@@ -4,7 +4,7 @@
 //! signals are not read. Lanes of the result run in driving direction; names are `road_section_lane`, with
 //! sections counted from 0 as in the file.
 //!
-//! The steps: `xml` cuts and parses, `records` checks what the elements say, `topology` joins lane ends by the
+//! The steps: `records` checks what the elements say, `topology` joins lane ends by the
 //! file's links, `build` samples each section into lanes, `connect` holds the links against the geometry.
 
 mod budget;
@@ -15,23 +15,21 @@ mod geometry;
 mod lane_build;
 mod lane_read;
 mod marks;
-mod notes;
 mod plan_view;
 mod profile;
 mod record;
 mod records;
 mod surface;
 mod topology;
-mod xml;
 
 #[cfg(test)]
 mod tests;
 
 use super::ImportError;
+use super::notes::Notes;
+use super::xml::{Element, Lines};
 use corridor_decider::road::RoadMap;
-use notes::Notes;
 use std::path::Path;
-use xml::{Element, Lines};
 
 /// What became of a file.
 #[derive(Clone, Debug)]
@@ -47,7 +45,7 @@ pub struct OpenDriveImport {
 /// # Errors
 /// [`ImportError`] with line and column when the text is not an OpenDRIVE map that can be driven on.
 pub fn read(text: &str) -> Result<OpenDriveImport, ImportError> {
-    let lines = Lines::new(text);
+    let lines = Lines::new(text, "OpenDRIVE");
     let document = lines.parse()?;
     let root = Element::root(&document, &lines, "OpenDRIVE")?;
     let mut notes = Notes::new(&lines);

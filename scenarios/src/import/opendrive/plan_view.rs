@@ -1,9 +1,9 @@
 //! Reads `<planView>`: the pieces of the reference line.
 
 use super::geometry::{Parametric, Piece, Shape, ShapeError, Spiral};
-use super::notes::Notes;
-use super::xml::Element;
 use crate::import::ImportError;
+use crate::import::notes::Notes;
+use crate::import::xml::Element;
 use corridor_decider::geometry::Pose;
 
 /// Pieces shorter than this are rounding dust of the program that wrote the file, m.

@@ -5,7 +5,7 @@
 
 use super::geometry::Piece;
 use super::profile::Profile;
-use super::xml::Place;
+use crate::import::xml::Place;
 use corridor_decider::road::{BoundaryType, LaneKind};
 
 /// One end of a road, of a section or of a lane, along the road's station.

@@ -1,10 +1,10 @@
 //! Reads the root: roads and junctions.
 
-use super::notes::Notes;
 use super::record::{Connection, End, JunctionRecord, Road, RoadLink, SpeedRecord};
-use super::xml::Element;
 use super::{lane_read, plan_view};
 use crate::import::ImportError;
+use crate::import::notes::Notes;
+use crate::import::xml::Element;
 use std::collections::BTreeSet;
 
 /// All roads, in the order of the file.

@@ -2,8 +2,8 @@
 //!
 //! A *port* is one end of one lane. Touching ports are symmetric and know no driving direction yet.
 
-use super::notes::Notes;
 use super::record::{Connection, End, JunctionRecord, Road, RoadLink};
+use crate::import::notes::Notes;
 use std::collections::BTreeMap;
 
 /// One end of the lane with this number.
@@ -158,7 +158,7 @@ impl Joiner<'_, '_> {
         }
     }
 
-    fn missing(&mut self, road: usize, place: super::xml::Place) {
+    fn missing(&mut self, road: usize, place: crate::import::xml::Place) {
         let id = &self.roads[road].id;
         self.notes
             .add("a link to a lane that does not exist is ignored", place, || {

@@ -11,13 +11,13 @@ struct Note {
 }
 
 /// Collects warnings. The order is that of first occurrence.
-pub(super) struct Notes<'a> {
+pub(crate) struct Notes<'a> {
     lines: &'a Lines<'a>,
     notes: Vec<Note>,
 }
 
 impl<'a> Notes<'a> {
-    pub(super) fn new(lines: &'a Lines<'a>) -> Self {
+    pub(crate) fn new(lines: &'a Lines<'a>) -> Self {
         Self {
             lines,
             notes: Vec::new(),
@@ -25,7 +25,7 @@ impl<'a> Notes<'a> {
     }
 
     /// Counts one more `what`; the first one is remembered with its place and subject.
-    pub(super) fn add(&mut self, what: &'static str, at: Place, subject: impl FnOnce() -> String) {
+    pub(crate) fn add(&mut self, what: &'static str, at: Place, subject: impl FnOnce() -> String) {
         if let Some(note) = self.notes.iter_mut().find(|note| note.what == what) {
             note.count += 1;
             return;
@@ -39,7 +39,7 @@ impl<'a> Notes<'a> {
         });
     }
 
-    pub(super) fn into_warnings(self) -> Vec<String> {
+    pub(crate) fn into_warnings(self) -> Vec<String> {
         let line = |note: Note| {
             let Note {
                 what,

@@ -3,11 +3,11 @@
 use crate::import::{ImportError, TextPlace};
 use roxmltree::{Document, Node};
 
-/// Most attributes of one element. The format knows about twenty; the XML reader compares each with each.
+/// Most attributes of one element. The formats know about twenty; the XML reader compares each with each.
 const MAX_ATTRIBUTES: usize = 1000;
 
 /// Starts of lines, to turn byte offsets into places for people.
-pub(super) struct Lines<'a> {
+pub(crate) struct Lines<'a> {
     text: &'a str,
     starts: Vec<usize>,
     /// Bytes before the document that the XML reader never saw.
@@ -16,15 +16,15 @@ pub(super) struct Lines<'a> {
 
 /// A byte offset in the document, cheap to carry along.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place(usize);
+pub(crate) struct Place(usize);
 
 impl<'a> Lines<'a> {
-    /// Finds the document inside `text`: a byte order mark, blank lines and comments may precede the XML
+    /// Finds the document with the root element `root` inside `text`: a byte order mark, blank lines and comments may precede the XML
     /// declaration in real files although XML forbids it.
-    pub(super) fn new(text: &'a str) -> Self {
+    pub(crate) fn new(text: &'a str, root: &str) -> Self {
         let cut = text
             .find("<?xml")
-            .or_else(|| text.find("<OpenDRIVE"))
+            .or_else(|| text.find(&format!("<{root}")))
             .unwrap_or(0);
         let starts = std::iter::once(0)
             .chain(text.match_indices('\n').map(|(at, _)| at + 1))
@@ -33,7 +33,7 @@ impl<'a> Lines<'a> {
     }
 
     /// The document without what precedes it, parsed.
-    pub(super) fn parse(&self) -> Result<Document<'a>, ImportError> {
+    pub(crate) fn parse(&self) -> Result<Document<'a>, ImportError> {
         self.check_attribute_counts()?;
         Document::parse(&self.text[self.cut..]).map_err(|error| {
             let first = self.place(Place(0));
@@ -76,7 +76,7 @@ impl<'a> Lines<'a> {
     }
 
     /// Line and column of a place.
-    pub(super) fn place(&self, at: Place) -> TextPlace {
+    pub(crate) fn place(&self, at: Place) -> TextPlace {
         let offset = (at.0 + self.cut).min(self.text.len());
         let line = self.starts.partition_point(|start| *start <= offset);
         let start = self.starts[line - 1];
@@ -90,14 +90,14 @@ impl<'a> Lines<'a> {
 
 /// An XML element that can complain.
 #[derive(Clone, Copy)]
-pub(super) struct Element<'a> {
+pub(crate) struct Element<'a> {
     node: Node<'a, 'a>,
     lines: &'a Lines<'a>,
 }
 
 impl<'a> Element<'a> {
     /// The root of a document, which must be called `name`.
-    pub(super) fn root(
+    pub(crate) fn root(
         document: &'a Document<'a>,
         lines: &'a Lines<'a>,
         name: &str,
@@ -113,16 +113,16 @@ impl<'a> Element<'a> {
     }
 
     /// Name without namespace.
-    pub(super) fn name(self) -> &'a str {
+    pub(crate) fn name(self) -> &'a str {
         self.node.tag_name().name()
     }
 
-    pub(super) fn place(self) -> Place {
+    pub(crate) fn place(self) -> Place {
         Place(self.node.range().start)
     }
 
     /// An error at this element.
-    pub(super) fn error(self, problem: impl Into<String>, expected: impl Into<String>) -> ImportError {
+    pub(crate) fn error(self, problem: impl Into<String>, expected: impl Into<String>) -> ImportError {
         ImportError::Element {
             place: self.lines.place(self.place()),
             element: self.name().to_owned(),
@@ -131,34 +131,34 @@ impl<'a> Element<'a> {
         }
     }
 
-    pub(super) fn elements(self) -> impl Iterator<Item = Element<'a>> {
+    pub(crate) fn elements(self) -> impl Iterator<Item = Element<'a>> {
         let lines = self.lines;
         let children = self.node.children().filter(Node::is_element);
         children.map(move |node| Element { node, lines })
     }
 
-    pub(super) fn children(self, name: &'static str) -> impl Iterator<Item = Element<'a>> {
+    pub(crate) fn children(self, name: &'static str) -> impl Iterator<Item = Element<'a>> {
         self.elements().filter(move |child| child.name() == name)
     }
 
-    pub(super) fn child(self, name: &'static str) -> Option<Element<'a>> {
+    pub(crate) fn child(self, name: &'static str) -> Option<Element<'a>> {
         self.children(name).next()
     }
 
-    pub(super) fn required_child(self, name: &'static str) -> Result<Element<'a>, ImportError> {
+    pub(crate) fn required_child(self, name: &'static str) -> Result<Element<'a>, ImportError> {
         self.child(name)
             .ok_or_else(|| self.error(format!("has no <{name}> inside"), format!("one <{name}>")))
     }
 
     /// The trimmed text of an attribute, `None` when absent or empty.
-    pub(super) fn text(self, attribute: &str) -> Option<&'a str> {
+    pub(crate) fn text(self, attribute: &str) -> Option<&'a str> {
         self.node
             .attribute(attribute)
             .map(str::trim)
             .filter(|text| !text.is_empty())
     }
 
-    pub(super) fn required_text(self, attribute: &str) -> Result<&'a str, ImportError> {
+    pub(crate) fn required_text(self, attribute: &str) -> Result<&'a str, ImportError> {
         self.text(attribute).ok_or_else(|| {
             self.error(
                 format!("has no `{attribute}`"),
@@ -168,7 +168,7 @@ impl<'a> Element<'a> {
     }
 
     /// A finite number; anything else is an error.
-    pub(super) fn number(self, attribute: &str) -> Result<f64, ImportError> {
+    pub(crate) fn number(self, attribute: &str) -> Result<f64, ImportError> {
         let text = self.required_text(attribute)?;
         match text.parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
@@ -180,7 +180,7 @@ impl<'a> Element<'a> {
     }
 
     /// A finite number, or `default` when the attribute is absent.
-    pub(super) fn number_or(self, attribute: &str, default: f64) -> Result<f64, ImportError> {
+    pub(crate) fn number_or(self, attribute: &str, default: f64) -> Result<f64, ImportError> {
         match self.text(attribute) {
             None => Ok(default),
             Some(_) => self.number(attribute),
@@ -188,14 +188,14 @@ impl<'a> Element<'a> {
     }
 
     /// A number of which NaN and infinity are let through, for values that real files spoil.
-    pub(super) fn any_number(self, attribute: &str) -> Result<f64, ImportError> {
+    pub(crate) fn any_number(self, attribute: &str) -> Result<f64, ImportError> {
         let text = self.required_text(attribute)?;
         text.parse::<f64>()
             .map_err(|_| self.error(format!("has {attribute}=\"{}\"", shortened(text)), "a number"))
     }
 
     /// A whole number, such as a lane id.
-    pub(super) fn integer(self, attribute: &str) -> Result<i32, ImportError> {
+    pub(crate) fn integer(self, attribute: &str) -> Result<i32, ImportError> {
         let text = self.required_text(attribute)?;
         text.parse::<i32>().map_err(|_| {
             self.error(
@@ -223,7 +223,7 @@ mod tests {
     fn places_count_what_was_cut_off() {
         let text =
             "\u{feff}\n<!-- ä -->\n  <?xml version=\"1.0\"?>\n<OpenDRIVE>\n <road length='x'/></OpenDRIVE>";
-        let lines = Lines::new(text);
+        let lines = Lines::new(text, "OpenDRIVE");
         let document = lines.parse().unwrap();
         let root = Element::root(&document, &lines, "OpenDRIVE").unwrap();
         let error = root.child("road").unwrap().number("length").unwrap_err();
@@ -233,7 +233,10 @@ mod tests {
 
     #[test]
     fn malformed_xml_is_placed_in_the_whole_file() {
-        let lines = Lines::new("<!-- licence -->\n<?xml version=\"1.0\"?>\n<OpenDRIVE><road></OpenDRIVE>");
+        let lines = Lines::new(
+            "<!-- licence -->\n<?xml version=\"1.0\"?>\n<OpenDRIVE><road></OpenDRIVE>",
+            "OpenDRIVE",
+        );
         let place = lines.parse().unwrap_err().place().unwrap();
         assert_eq!(place.line, 3);
     }
