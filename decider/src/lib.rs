@@ -12,6 +12,7 @@ pub mod context;
 pub mod decision;
 pub mod frame;
 pub mod geometry;
+pub mod hd_map;
 pub mod planner;
 pub mod reference_line;
 pub mod road;

@@ -4,6 +4,7 @@
 //! line, the column and what would have been right. No input makes it panic or run without end.
 
 mod error;
+mod lanelets;
 mod notes;
 pub mod opendrive;
 mod xml;
