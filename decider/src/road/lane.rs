@@ -247,6 +247,25 @@ impl Lane {
         }
     }
 
+    /// The station of the place on the centre line that is nearest to `point`, m.
+    pub fn station_of(&self, point: Vec2) -> f64 {
+        let foot = |pair: &[LanePoint]| {
+            let (a, b) = (Vec2::new(pair[0].x, pair[0].y), Vec2::new(pair[1].x, pair[1].y));
+            let along = b - a;
+            let t = ((point - a).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            (
+                (point - a - along * t).norm_squared(),
+                pair[0].s + (pair[1].s - pair[0].s) * t,
+            )
+        };
+        let nearest = self
+            .points
+            .windows(2)
+            .map(foot)
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.map_or(0.0, |(_, s)| s)
+    }
+
     /// The line on `side` at `s`.
     pub fn mark(&self, side: Side, s: f64) -> BoundaryType {
         let marks = match side {
