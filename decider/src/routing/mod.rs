@@ -138,14 +138,19 @@ impl Way {
 
 fn response(graph: &LaneGraph, map: &RoadMap, black: &BlackList, way: &Way) -> RoutingResponse {
     let stages = passages::stages(graph, black, &way.steps);
-    let name = |position: &Position| LaneWaypoint {
-        lane: Some(map.lane(position.lane).name.clone()),
-        s: Some(position.s),
+    let waypoint = |position: &Position| {
+        let lane = map.lane(position.lane);
+        let at = lane.at(position.s);
+        LaneWaypoint {
+            lane: Some(lane.name.clone()),
+            s: Some(position.s),
+            position: Some(at.offset(0.0)),
+            heading: Some(at.theta),
+        }
     };
     RoutingResponse {
-        distance: way.steps.iter().map(|(piece, _)| piece.end - piece.start).sum(),
         roads: stages.iter().map(|stage| road(map, stage)).collect(),
-        way_points: Some(way.passed.iter().map(name).collect()),
+        waypoints: way.passed.iter().map(waypoint).collect(),
     }
 }
 

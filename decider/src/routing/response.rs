@@ -1,42 +1,54 @@
-//! A route as the original's routing answers it: roads of passages of lane segments.
+//! A routing answer: roads, their parallel passages, and the lanes of each, by name.
 //!
-//! A road is a stretch of the route on which the same passages run side by side; a passage is a chain of lanes that is
-//! driven without a change of lane. Lanes are named as their map names them, stations are metres along the lane.
+//! Stations are metres along a lane from its start. Nothing here is checked against a map: that is the business of
+//! whoever follows the route. Source: the original's `modules/common_msgs/routing_msgs/routing.proto`.
 
+use crate::geometry::Vec2;
 use serde::{Deserialize, Serialize};
 
-/// A whole route.
+/// A route from the first waypoint of a request, through all others, to the last.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RoutingResponse {
-    /// Its roads, in the order in which they are driven.
+    /// Roads in driving order.
     pub roads: Vec<RoadSegment>,
-    /// What it was asked for: the start, places to pass, the destination. `None` where the answer does not tell.
-    pub way_points: Option<Vec<LaneWaypoint>>,
-    /// Its length, m.
-    pub distance: f64,
+    /// Where the request wanted to pass, in order: first the start, last the destination.
+    pub waypoints: Vec<LaneWaypoint>,
 }
 
-/// A stretch of a route with constant passages.
+/// A stretch of the route on which the same parallel passages can be used.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RoadSegment {
-    /// Name of its road; may be empty.
+    /// Its name; may be empty.
     pub id: String,
-    /// Its passages: where one comes from first, where one leaves last.
+    /// Passages in the order of the manoeuvre: the first is where the car comes from, the last where it must leave.
     pub passages: Vec<Passage>,
 }
 
-/// Lanes that are driven one after the other.
+/// A chain of lanes that can be driven without a lane change.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Passage {
-    /// Its lanes.
+    /// Its lanes in driving order.
     pub segments: Vec<LaneSegment>,
-    /// Whether the next road is reached by going on straight.
+    /// Whether going straight leads on to the next road.
     pub can_exit: bool,
-    /// To which side one has to change where it is not.
+    /// To which side the car must change to get where it can exit.
     pub change_lane_type: ChangeLaneType,
 }
 
-/// A stretch of a lane.
+/// To which side a passage is to be left.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum ChangeLaneType {
+    /// To none: straight on.
+    #[default]
+    Forward,
+    /// To the left.
+    Left,
+    /// To the right.
+    Right,
+}
+
+/// A part of a lane.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LaneSegment {
     /// Name of the lane.
@@ -47,24 +59,15 @@ pub struct LaneSegment {
     pub end_s: f64,
 }
 
-/// To which side a passage is left.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
-pub enum ChangeLaneType {
-    /// Straight on.
-    #[default]
-    Forward,
-    /// To the left.
-    Left,
-    /// To the right.
-    Right,
-}
-
-/// A place on a lane that a route was asked to pass.
+/// A place that a request names: on a lane, in the plane, or both.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LaneWaypoint {
-    /// Name of the lane, if the request names one.
+    /// Name of the lane, if the request named one.
     pub lane: Option<String>,
-    /// Station on it, m.
+    /// Station on that lane, m.
     pub s: Option<f64>,
+    /// World position, m.
+    pub position: Option<Vec2>,
+    /// Heading there, rad.
+    pub heading: Option<f64>,
 }
