@@ -6,6 +6,7 @@
 //! In the Frenet frame of a reference line `s` runs forward from its first point and `l` is positive to the
 //! **left**; a bound is `(s, l_min, l_max)`, right then left, for the centre of the rear axle.
 
+mod banded;
 mod columns;
 pub mod config;
 pub mod context;

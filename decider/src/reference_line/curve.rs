@@ -85,7 +85,10 @@ impl Curve {
         let last = knots.len().saturating_sub(1);
         let block = |start: usize| Circle::around(&knots[start..=(start + BLOCK).min(last)]);
         let blocks = (0..last).step_by(BLOCK).map(block).collect();
-        let length = knots.last().map_or(0.0, |knot| knot.s);
+        let length = match &knots[..] {
+            [first, .., last] => last.s - first.s,
+            _ => 0.0,
+        };
         Self {
             knots_per_metre: knots.len() as f64 / length,
             knots,
@@ -107,7 +110,7 @@ impl Curve {
             clippy::cast_sign_loss,
             reason = "saturates, and is only a guess"
         )]
-        let guess = (s * self.knots_per_metre) as usize;
+        let guess = ((s - self.knots[0].s) * self.knots_per_metre) as usize;
         let mut count = guess.min(self.knots.len());
         for _ in 0..REACH {
             if count > 0 && self.knots[count - 1].s > s {

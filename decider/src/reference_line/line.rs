@@ -126,7 +126,10 @@ impl TryFrom<WrittenLine> for ReferenceLine {
 }
 
 fn long_enough(samples: Vec<LineSample>) -> Result<Vec<LineSample>, LineError> {
-    let length = samples.last().map_or(0.0, |last| last.s);
+    let length = match &samples[..] {
+        [first, .., last] => last.s - first.s,
+        _ => 0.0,
+    };
     if samples.len() < 2 || length < LEAST_LENGTH {
         return Err(LineError::TooShort { length });
     }
@@ -169,6 +172,14 @@ impl ReferenceLine {
         long_enough(samples).map(Self::from)
     }
 
+    /// The line through cross-sections by ascending station.
+    ///
+    /// # Errors
+    /// [`LineError`] when they are too few or too near.
+    pub(super) fn checked(samples: Vec<LineSample>) -> Result<Self, LineError> {
+        long_enough(samples).map(Self::from)
+    }
+
     /// Its cross-sections, by ascending station.
     pub fn samples(&self) -> &[LineSample] {
         &self.samples
@@ -197,7 +208,7 @@ impl ReferenceLine {
     }
 
     fn inside(&self, s: f64) -> bool {
-        s >= 0.0 && s <= self.length()
+        s >= self.start() && s <= self.length()
     }
 
     fn mix_widths(&self, s: f64, widths: impl Fn(&LineSample) -> (f64, f64)) -> Option<(f64, f64)> {
@@ -211,6 +222,10 @@ impl ReferenceLine {
 }
 
 impl LineQuery for ReferenceLine {
+    fn start(&self) -> f64 {
+        self.samples.first().map_or(0.0, |p| p.s)
+    }
+
     fn length(&self) -> f64 {
         self.samples.last().map_or(0.0, |p| p.s)
     }
@@ -258,7 +273,7 @@ impl LineQuery for ReferenceLine {
     }
 
     fn sample(&self, from: f64, step: f64, end: f64, stations: &mut Vec<Station>) {
-        if from < 0.0 || end > self.length() {
+        if from < self.start() || end > self.length() {
             let mut s = from;
             while s < end {
                 stations.push(station(self, s));
@@ -326,7 +341,8 @@ fn append(samples: &mut Vec<LineSample>, mut next: LineSample) {
     samples.push(next);
 }
 
-fn sample(map: &RoadMap, id: LaneId, at: &LanePoint) -> LineSample {
+/// What the map says beside a place of a lane's centre line.
+pub(super) fn sample(map: &RoadMap, id: LaneId, at: &LanePoint) -> LineSample {
     let lane = map.lane(id);
     let width_of = |kind: Neighbour| {
         let other = map.lane(map.neighbour(id, kind)?);

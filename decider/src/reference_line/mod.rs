@@ -6,6 +6,8 @@
 mod curve;
 mod line;
 mod query;
+mod smooth;
+mod stitch;
 #[cfg(test)]
 pub(crate) mod testing;
 #[cfg(test)]
@@ -13,3 +15,4 @@ mod tests;
 
 pub use line::{LineError, LinePoint, LineSample, ReferenceLine};
 pub use query::{LineQuery, SlPoint};
+pub use stitch::{StitchedLine, Stretch};

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// A place in the Frenet frame of a reference line, metres.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SlPoint {
-    /// Station along the line, from its first point.
+    /// Station along the line, counted from where it began.
     pub s: f64,
     /// Lateral offset, left positive.
     pub l: f64,
@@ -19,7 +19,12 @@ pub struct SlPoint {
 ///
 /// A query that returns `Option` may fail where the map has a hole; callers say what they assume then.
 pub trait LineQuery {
-    /// Length of the line, m.
+    /// First station, m. A line that has been cut off behind the car goes on counting from where it once began.
+    fn start(&self) -> f64 {
+        0.0
+    }
+
+    /// Last station, m: the line's length where it begins at 0.
     fn length(&self) -> f64;
 
     /// Distances from the line to the (left, right) edges of the lane it follows.

@@ -1,0 +1,432 @@
+//! A smooth line along a chain of lanes that grows ahead of the car and is cut behind it.
+//!
+//! Anchors stand a metre apart, counted from where the chain began, so a longer chain has the same anchors and some
+//! more. When the line grows, all but its last stretch stays exactly as it is, and stations go on counting: nothing that
+//! a planner remembers in terms of `s` and `l` moves (the original smooths a window anew in every cycle, or pins one
+//! point of it).
+
+use super::line::{LineError, LineSample, ReferenceLine, sample};
+use super::query::LineQuery;
+use super::smooth::{self, Anchor};
+use crate::geometry::{Vec2, angle};
+use crate::road::{LaneId, RoadMap};
+use crate::vehicle::VehicleParams;
+use std::sync::Arc;
+
+/// Distance between anchors, m.
+const STEP: f64 = 1.0;
+
+/// Stretch at the end of a line that may still move when the line grows, m (the original's
+/// `reference_line_stitch_overlap_distance`).
+const OVERLAP: usize = 20;
+
+/// Points at the end of the unmoved stretch whose curvature looks ahead into the moved one.
+const STENCIL: usize = 2;
+
+/// Room that the car must have to both sides of the line, m (the original's `lateral_buffer`).
+const LATERAL_BUFFER: f64 = 0.2;
+
+/// Least and largest distance to which the line may leave the lane's centre, m
+/// (`min_` and `max_lateral_boundary_bound`).
+const REACH: (f64, f64) = (0.1, 0.5);
+
+/// A stretch of a lane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stretch {
+    /// Which lane.
+    pub lane: LaneId,
+    /// First station on it, m.
+    pub start_s: f64,
+    /// Last station on it, m.
+    pub end_s: f64,
+}
+
+impl Stretch {
+    fn length(&self) -> f64 {
+        (self.end_s - self.start_s).max(0.0)
+    }
+}
+
+/// A smooth line and the lanes that it follows.
+#[derive(Clone, Debug)]
+pub struct StitchedLine {
+    chain: Vec<Stretch>,
+    /// Distance from where the chain began to its first anchor now, in anchors.
+    dropped: usize,
+    /// How far each anchor was moved to the left, m.
+    offsets: Vec<f64>,
+    line: Arc<ReferenceLine>,
+}
+
+impl StitchedLine {
+    /// A line along `chain`, whose stretches follow each other.
+    ///
+    /// # Errors
+    /// [`LineError`] when the chain is empty or too short.
+    pub fn new(map: &RoadMap, chain: Vec<Stretch>, vehicle: &VehicleParams) -> Result<Self, LineError> {
+        if chain.is_empty() {
+            return Err(LineError::Empty);
+        }
+        let places = places(&chain, 0);
+        let mut anchors: Vec<Anchor> = places.iter().map(|place| anchor(map, *place, vehicle)).collect();
+        // Where the line begins it is the lane's centre: whoever comes from there finds it.
+        if let Some(first) = anchors.first_mut() {
+            first.limits = (0.0, 0.0);
+        }
+        let offsets = smooth::offsets(&anchors, STEP);
+        let samples = samples(map, &places, &anchors, &offsets, &[], 0.0);
+        Ok(Self {
+            chain,
+            dropped: 0,
+            offsets,
+            line: Arc::new(ReferenceLine::checked(samples)?),
+        })
+    }
+
+    /// The line itself.
+    pub fn line(&self) -> &Arc<ReferenceLine> {
+        &self.line
+    }
+
+    /// The lanes it follows.
+    pub fn chain(&self) -> &[Stretch] {
+        &self.chain
+    }
+
+    /// Whether the line holds all of `chain`, so that it serves as it is.
+    pub fn covers(&self, chain: &[Stretch]) -> bool {
+        let Some(first) = self.place_of(chain) else {
+            return false;
+        };
+        let mine = &self.chain[first..];
+        let inside = |(k, wanted): (usize, &Stretch)| {
+            mine.get(k).is_some_and(|have| {
+                let starts = k == 0 || have.start_s <= wanted.start_s + STEP;
+                have.lane == wanted.lane && starts && have.end_s + STEP >= wanted.end_s
+            })
+        };
+        chain.iter().enumerate().all(inside)
+    }
+
+    /// This line led on along `chain`. `None` where the
+    /// chain does not begin on this line.
+    ///
+    /// # Errors
+    /// [`LineError`] when nothing is left.
+    pub fn led_on(
+        &self,
+        map: &RoadMap,
+        chain: &[Stretch],
+        vehicle: &VehicleParams,
+    ) -> Option<Result<Self, LineError>> {
+        let first = self.place_of(chain)?;
+        let mut joined = self.chain[..first].to_vec();
+        let mut common = joined.iter().map(Stretch::length).sum::<f64>();
+        let mut is_common = true;
+        for (k, wanted) in chain.iter().enumerate() {
+            let mut stretch = *wanted;
+            if let Some(mine) = self
+                .chain
+                .get(first + k)
+                .filter(|mine| is_common && mine.lane == wanted.lane)
+            {
+                stretch.start_s = if k == 0 { mine.start_s } else { wanted.start_s };
+                common += mine.length().min(stretch.length());
+            } else {
+                is_common = false;
+            }
+            joined.push(stretch);
+        }
+        Some(self.rebuilt(map, joined, common, vehicle))
+    }
+
+    /// The line along `chain`, of which the first `common` metres are this line's.
+    fn rebuilt(
+        &self,
+        map: &RoadMap,
+        chain: Vec<Stretch>,
+        common: f64,
+        vehicle: &VehicleParams,
+    ) -> Result<Self, LineError> {
+        let places = places(&chain, self.dropped);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a length in metres, not negative"
+        )]
+        let shared = ((common / STEP) as usize + 1).saturating_sub(self.dropped);
+        let kept = shared.min(self.offsets.len()).saturating_sub(OVERLAP);
+        let mut anchors: Vec<Anchor> = places.iter().map(|place| anchor(map, *place, vehicle)).collect();
+        for (anchor, offset) in anchors.iter_mut().zip(&self.offsets[..kept]) {
+            anchor.limits = (*offset, *offset);
+        }
+        let offsets = smooth::offsets(&anchors, STEP);
+        let old = &self.line.samples()[..kept.saturating_sub(STENCIL)];
+        let samples = samples(map, &places, &anchors, &offsets, old, self.line.start());
+        Ok(Self {
+            chain,
+            dropped: self.dropped,
+            offsets,
+            line: Arc::new(ReferenceLine::checked(samples)?),
+        })
+    }
+
+    /// This line without what lies more than `keep` metres before the station `here`.
+    pub fn cut_behind(&self, here: f64, keep: f64) -> Self {
+        let samples = self.line.samples();
+        let gone = samples.partition_point(|sample| sample.s < here - keep);
+        let gone = gone.min(samples.len().saturating_sub(2));
+        let Ok(line) = ReferenceLine::checked(samples[gone..].to_vec()) else {
+            return self.clone();
+        };
+        Self {
+            chain: self.chain.clone(),
+            dropped: self.dropped + gone,
+            offsets: self.offsets[gone..].to_vec(),
+            line: Arc::new(line),
+        }
+    }
+
+    /// Place in the own chain of the lane on which another chain begins.
+    fn place_of(&self, chain: &[Stretch]) -> Option<usize> {
+        let wanted = chain.first()?;
+        let holds = |mine: &Stretch| {
+            mine.lane == wanted.lane && mine.start_s <= wanted.start_s + STEP && wanted.start_s <= mine.end_s
+        };
+        self.chain.iter().position(holds)
+    }
+}
+
+/// A place of an anchor: a lane and a station on it.
+type Place = (LaneId, f64);
+
+/// Where the anchors of a chain stand, without the first `dropped`.
+fn places(chain: &[Stretch], dropped: usize) -> Vec<Place> {
+    let mut places = Vec::new();
+    let (mut before, mut index) = (0.0, 0_usize);
+    for stretch in chain {
+        let end = before + stretch.length();
+        while index as f64 * STEP <= end {
+            if index >= dropped {
+                places.push((stretch.lane, stretch.start_s + (index as f64 * STEP - before)));
+            }
+            index += 1;
+        }
+        before = end;
+    }
+    places
+}
+
+/// An anchor on the centre line, with the room that the lane leaves (the original's `GetAnchorPoint`).
+fn anchor(map: &RoadMap, (lane, s): Place, vehicle: &VehicleParams) -> Anchor {
+    let at = map.lane(lane).at(s);
+    let (sin, cos) = angle::sin_cos(at.theta);
+    let room = (at.left + at.right - vehicle.width) / 2.0 - LATERAL_BUFFER;
+    let reach = room.clamp(REACH.0, REACH.1);
+    Anchor {
+        position: Vec2::new(at.x, at.y),
+        normal: Vec2::new(-sin, cos),
+        limits: (-reach, reach),
+    }
+}
+
+/// The line's cross-sections: those of an older line as far as they stay, then new ones. `start`: station of the first.
+fn samples(
+    map: &RoadMap,
+    places: &[Place],
+    anchors: &[Anchor],
+    offsets: &[f64],
+    old: &[LineSample],
+    start: f64,
+) -> Vec<LineSample> {
+    let moved = anchors
+        .iter()
+        .zip(offsets)
+        .map(|(anchor, l)| anchor.position + anchor.normal * *l);
+    let positions: Vec<Vec2> = moved.collect();
+    let points = smooth::points(&positions);
+    let mut samples = old.to_vec();
+    for k in samples.len()..points.len() {
+        let (lane, s) = places[k];
+        let along = samples.last().map(|last| {
+            let step = (positions[k] - positions[k - 1]).norm();
+            let turn = angle::difference(points[k].theta, last.point.theta);
+            last.s + step * (1.0 + turn * turn / 24.0)
+        });
+        let mut next = sample(map, lane, &map.lane(lane).at(s));
+        let l = offsets[k];
+        next.s = along.unwrap_or(start);
+        next.point = points[k];
+        next.offset = l;
+        next.lane_width = (next.lane_width.0 - l, next.lane_width.1 + l);
+        next.road_width = (next.road_width.0 - l, next.road_width.1 + l);
+        samples.push(next);
+    }
+    samples
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::road::{Lane, LaneKind, LanePoint};
+    use proptest::prelude::*;
+
+    /// Lanes of given lengths and curvatures that follow each other with a kink of `kink` between them.
+    fn road(lanes: &[(f64, f64)], kink: f64) -> RoadMap {
+        let (mut position, mut theta) = (Vec2::new(4e5, 5e6), 0.4);
+        let count = u32::try_from(lanes.len()).unwrap();
+        let lane = |(k, (length, kappa)): (u32, &(f64, f64))| {
+            let mut points = Vec::new();
+            let step = length / (length / 0.5).ceil();
+            for j in 0_i32..=((length / 0.5).ceil() as i32) {
+                points.push(LanePoint {
+                    s: f64::from(j) * step,
+                    x: position.x,
+                    y: position.y,
+                    theta: angle::wrap(theta),
+                    kappa: *kappa,
+                    left: 1.75,
+                    right: 1.75,
+                    road_left: 5.0,
+                    road_right: 2.0,
+                    speed_limit: 10.0,
+                });
+                if f64::from(j) * step < length - step / 2.0 {
+                    let (sin, cos) = angle::sin_cos(theta + kappa * step / 2.0);
+                    position += Vec2::new(cos, sin) * step;
+                    theta += kappa * step;
+                }
+            }
+            theta += kink;
+            Lane {
+                name: format!("{k}"),
+                kind: LaneKind::Driving,
+                road: "r".to_owned(),
+                junction: None,
+                points,
+                left_marks: Vec::new(),
+                right_marks: Vec::new(),
+                neighbours: [None; 4],
+                predecessors: k.checked_sub(1).map(LaneId).into_iter().collect(),
+                successors: (k + 1 < count).then_some(LaneId(k + 1)).into_iter().collect(),
+            }
+        };
+        RoadMap::new((0..).zip(lanes).map(lane).collect(), Vec::new()).unwrap()
+    }
+
+    /// The stretch from `from` to `to` metres of the lanes of a map in a row.
+    fn window(map: &RoadMap, from: f64, to: f64) -> Vec<Stretch> {
+        let mut before = 0.0;
+        let mut chain = Vec::new();
+        for (id, lane) in (0..).map(LaneId).zip(map.lanes()) {
+            let (start_s, end_s) = ((from - before).max(0.0), (to - before).min(lane.length()));
+            if end_s > start_s {
+                chain.push(Stretch {
+                    lane: id,
+                    start_s,
+                    end_s,
+                });
+            }
+            before += lane.length();
+        }
+        chain
+    }
+
+    /// Drives along a line that grows and is cut; gives every line on the way.
+    fn drive(map: &RoadMap, length: f64) -> Vec<StitchedLine> {
+        let vehicle = VehicleParams::default();
+        let mut line = StitchedLine::new(map, window(map, 0.0, 120.0), &vehicle).unwrap();
+        let mut lines = vec![line.clone()];
+        let mut here = 0.0;
+        while here + 180.0 < length {
+            here += 35.0;
+            let wanted = window(map, (here - 50.0_f64).max(0.0), here + 180.0);
+            if line.covers(&wanted) {
+                continue;
+            }
+            line = line
+                .led_on(map, &wanted, &vehicle)
+                .unwrap()
+                .unwrap()
+                .cut_behind(here, 75.0);
+            assert!(line.covers(&wanted), "{here}");
+            lines.push(line.clone());
+        }
+        lines
+    }
+
+    /// Largest jump of curvature per metre and of heading against it.
+    fn roughness(line: &ReferenceLine) -> (f64, f64) {
+        let jumps = line.samples().windows(2).map(|pair| {
+            let ds = pair[1].s - pair[0].s;
+            let turned = angle::difference(pair[1].point.theta, pair[0].point.theta);
+            let mean = (pair[0].point.kappa + pair[1].point.kappa) / 2.0;
+            (
+                (pair[1].point.kappa - pair[0].point.kappa).abs() / ds,
+                (turned - mean * ds).abs(),
+            )
+        });
+        jumps.fold((0.0, 0.0), |a, b| (f64::max(a.0, b.0), f64::max(a.1, b.1)))
+    }
+
+    #[test]
+    fn what_was_there_stays_when_the_line_grows() {
+        let map = road(
+            &[
+                (90.0, 0.0),
+                (80.0, 0.02),
+                (70.0, -0.03),
+                (150.0, 0.0),
+                (200.0, 0.004),
+            ],
+            0.03,
+        );
+        let lines = drive(&map, 590.0);
+        assert!(lines.len() > 10);
+        for pair in lines.windows(2) {
+            let (old, new) = (pair[0].line(), pair[1].line());
+            let common = new.start().max(old.start());
+            let end = old.length() - 25.0;
+            let mut s = common;
+            while s < end {
+                let (a, b) = (old.point(s), new.point(s));
+                assert!(
+                    (a.x, a.y, a.theta, a.kappa) == (b.x, b.y, b.theta, b.kappa),
+                    "{s}"
+                );
+                s += 0.7;
+            }
+            // And in the stretch that may move it moves little.
+            while s < old.length() - 3.0 {
+                let at = old.to_frenet(Vec2::new(new.point(s).x, new.point(s).y));
+                assert!(at.l.abs() < 0.3 && (at.s - s).abs() < 0.05, "{s} {at:?}");
+                s += 0.7;
+            }
+        }
+    }
+
+    #[test]
+    fn a_chain_from_elsewhere_is_refused_and_a_branch_is_followed() {
+        let map = road(&[(90.0, 0.0), (80.0, 0.01), (70.0, 0.0)], 0.0);
+        let vehicle = VehicleParams::default();
+        let line = StitchedLine::new(&map, window(&map, 0.0, 60.0), &vehicle).unwrap();
+        assert!(line.led_on(&map, &window(&map, 100.0, 150.0), &vehicle).is_none());
+        assert!(line.covers(&window(&map, 10.0, 50.0)) && !line.covers(&window(&map, 10.0, 80.0)));
+        assert!(StitchedLine::new(&map, Vec::new(), &vehicle).is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn heading_and_curvature_are_continuous_on_every_line_of_a_drive(
+            bends in prop::collection::vec((40.0..120.0f64, -0.05..0.05f64), 4..7),
+            kink in -0.05..0.05f64,
+        ) {
+            let map = road(&bends, kink);
+            let length: f64 = bends.iter().map(|(length, _)| length).sum();
+            for line in drive(&map, length) {
+                let (curvature, heading) = roughness(line.line());
+                prop_assert!(curvature < 0.02 && heading < 2e-3, "{curvature} {heading}");
+            }
+        }
+    }
+}
