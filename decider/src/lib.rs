@@ -16,5 +16,6 @@ pub mod hd_map;
 pub mod planner;
 pub mod reference_line;
 pub mod road;
+pub mod routing;
 pub mod tasks;
 pub mod vehicle;
