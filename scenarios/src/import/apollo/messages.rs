@@ -251,10 +251,6 @@ messages! {
         id: Option<String> = optional string 1;
         passage: Vec<Passage> = repeated message 2;
     }
-    /// Total of a routing.
-    Measurement {
-        distance: Option<f64> = optional double 1;
-    }
     /// A place to pass.
     LaneWaypoint {
         id: Option<String> = optional string 1;
@@ -262,16 +258,13 @@ messages! {
         pose: Option<Point> = optional message 3;
         heading: Option<f64> = optional double 4;
     }
-    /// What was asked for. The fields from 6 on differ between versions and are not read.
+    /// What was asked for. What to avoid is not read, and from field 6 on versions differ.
     RoutingRequest {
         waypoint: Vec<LaneWaypoint> = repeated message 2;
-        blacklisted_lane: Vec<LaneSegment> = repeated message 3;
-        blacklisted_road: Vec<String> = repeated string 4;
     }
     /// The way to go.
     RoutingResponse {
         road: Vec<RoadSegment> = repeated message 2;
-        measurement: Option<Measurement> = optional message 3;
         routing_request: Option<RoutingRequest> = optional message 4;
     }
 }

@@ -11,6 +11,8 @@ mod fault;
 mod messages;
 mod read;
 mod record;
+mod road_map;
+mod routing;
 mod sanity;
 mod text;
 mod wire;
@@ -19,3 +21,5 @@ mod wire;
 mod tests;
 
 pub use read::read_map;
+pub use road_map::to_road_map;
+pub use routing::{read_routing, read_routing_request};

@@ -6,12 +6,21 @@ mod lane;
 mod road;
 mod things;
 
+pub(super) use curve::point;
 pub(super) use lane::lane;
 pub(super) use road::road;
 pub(super) use things::{clear_area, outline, overlap, sign, signal, speed_bump};
 
 use super::fault::{Fault, Inside};
 use super::messages::Id;
+use corridor_decider::routing::ChangeLaneType;
+
+/// Ways to leave a passage of a routing.
+pub(super) const LANE_CHANGES: [(i32, ChangeLaneType); 3] = [
+    (0, ChangeLaneType::Forward),
+    (1, ChangeLaneType::Left),
+    (2, ChangeLaneType::Right),
+];
 
 /// Farthest a station or a width may be from zero, m.
 const LARGEST: f64 = 1e6;
@@ -51,7 +60,7 @@ pub(super) fn optional_number(value: Option<f64>, field: &'static str) -> Result
 }
 
 /// The value that an enumeration's number stands for; the first one when it is missing.
-fn choice<T: Copy>(value: Option<i32>, values: &[(i32, T)]) -> Result<T, Fault> {
+pub(super) fn choice<T: Copy>(value: Option<i32>, values: &[(i32, T)]) -> Result<T, Fault> {
     let Some(value) = value else {
         return Ok(values[0].1);
     };
