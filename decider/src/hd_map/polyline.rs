@@ -81,10 +81,6 @@ impl Polyline {
         &self.stations
     }
 
-    pub(super) fn directions(&self) -> &[Vec2] {
-        &self.directions
-    }
-
     pub(super) fn length(&self) -> f64 {
         self.stations[self.stations.len() - 1]
     }
