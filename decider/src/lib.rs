@@ -14,6 +14,7 @@ pub mod decision;
 pub mod frame;
 pub mod geometry;
 pub mod hd_map;
+pub mod lane_follow_map;
 pub mod planner;
 pub mod reference_line;
 pub mod road;

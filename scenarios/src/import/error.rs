@@ -45,6 +45,38 @@ pub enum ImportError {
         /// What would be right.
         expected: String,
     },
+    /// The text is not in the text form of protocol buffers.
+    #[error("{place}: {problem}; expected {expected}")]
+    Text {
+        /// Where it is wrong.
+        place: TextPlace,
+        /// What is wrong.
+        problem: String,
+        /// What would be right.
+        expected: String,
+    },
+    /// The bytes are not the binary form of a message.
+    #[error("byte {at}: {problem}; expected {expected}")]
+    Bytes {
+        /// Where it is wrong, counted from 0.
+        at: usize,
+        /// What is wrong.
+        problem: String,
+        /// What would be right.
+        expected: String,
+    },
+    /// A field of a message that is missing, contradictory or out of range.
+    #[error("{}{path} {problem}; expected {expected}", before(*.place))]
+    Field {
+        /// Where it is, in a text.
+        place: Option<TextPlace>,
+        /// The field, as in `lane[3].central_curve`.
+        path: String,
+        /// What is wrong with it.
+        problem: String,
+        /// What would be right.
+        expected: String,
+    },
     /// The map would not fit into memory or time.
     #[error(
         "{place}: the map is larger than {limit} at road `{road}`; expected at most that much road surface"
@@ -75,12 +107,22 @@ impl ImportError {
     /// The place in the text, where there is one.
     pub fn place(&self) -> Option<TextPlace> {
         match self {
-            Self::Xml { place, .. } | Self::Element { place, .. } | Self::TooLarge { place, .. } => {
-                Some(*place)
-            }
+            Self::Xml { place, .. }
+            | Self::Element { place, .. }
+            | Self::Text { place, .. }
+            | Self::TooLarge { place, .. } => Some(*place),
+            Self::Field { place, .. } => *place,
             Self::InFile { error, .. } => error.place(),
-            Self::Io(_) | Self::Map(_) => None,
+            Self::Io(_) | Self::Map(_) | Self::Bytes { .. } => None,
         }
+    }
+
+    /// The same error at a place in a text, if it is one that can do without.
+    pub(crate) fn at(mut self, at: Option<TextPlace>) -> Self {
+        if let Self::Field { place, .. } = &mut self {
+            *place = at;
+        }
+        self
     }
 }
 
@@ -90,4 +132,9 @@ fn in_file(file: &str, error: &ImportError) -> String {
         Some(_) => format!("{file}:{error}"),
         None => format!("{file}: {error}"),
     }
+}
+
+/// A place and what separates it from the message.
+fn before(place: Option<TextPlace>) -> String {
+    place.map_or_else(String::new, |place| format!("{place}: "))
 }

@@ -1,0 +1,1 @@
+//! Hand-made maps and what must hold on them.

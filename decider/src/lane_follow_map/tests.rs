@@ -1,0 +1,1 @@
+//! Hand-made routes, and what must hold on them.

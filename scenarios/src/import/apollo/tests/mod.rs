@@ -1,0 +1,1 @@
+//! Small maps made by hand.
