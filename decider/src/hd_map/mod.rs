@@ -9,6 +9,7 @@ mod lane;
 mod line;
 mod map;
 mod object;
+mod of_roads;
 mod overlaps;
 mod path;
 mod polyline;

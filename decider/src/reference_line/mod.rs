@@ -5,6 +5,7 @@
 
 mod curve;
 mod line;
+mod provider;
 mod query;
 mod smooth;
 mod stitch;
@@ -14,5 +15,6 @@ pub(crate) mod testing;
 mod tests;
 
 pub use line::{LineError, LinePoint, LineSample, ReferenceLine};
+pub use provider::{LineProvider, ProviderError, RouteLine};
 pub use query::{LineQuery, SlPoint};
-pub use stitch::{StitchedLine, Stretch};
+pub use stitch::StitchedLine;

@@ -1,0 +1,135 @@
+//! The reference lines of a tick: those of the passages that the route lets the car use from where it is (the
+//! original's `ReferenceLineProvider`).
+//!
+//! Where the original smooths on a thread of its own and takes what is ready, here a line grows when the car needs more
+//! of it, at the same place in every run.
+
+use super::line::LineError;
+use super::query::LineQuery;
+use super::stitch::StitchedLine;
+use crate::hd_map::{HdMap, HdMapError};
+use crate::lane_follow_map::{FollowError, LaneFollowConfig, LaneFollowMap, RouteError, RouteSegments, VehicleState};
+use crate::reference_line::ReferenceLine;
+use crate::road::RoadMap;
+use crate::routing::RoutingResponse;
+use crate::vehicle::VehicleParams;
+use std::sync::Arc;
+
+/// How much farther than it is needed a line is made, m (the original's `look_forward_extend_distance`): it grows once
+/// in a few seconds, and not in every tick.
+const EXTENSION: f64 = 50.0;
+
+/// A line is cut when more than this lies behind the car, m.
+const LONGEST_BEHIND: f64 = 150.0;
+
+/// How much of it stays then, m (half as much again as the lane-follow map looks back).
+const KEPT_BEHIND: f64 = 75.0;
+
+/// Why there is no line to plan along.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ProviderError {
+    /// The map cannot be followed.
+    #[error(transparent)]
+    Map(#[from] HdMapError),
+    /// The route cannot be followed on the map.
+    #[error(transparent)]
+    Route(#[from] RouteError),
+    /// The car is not on the route.
+    #[error(transparent)]
+    Follow(#[from] FollowError),
+    /// The lanes of the car's own passage give no line.
+    #[error(transparent)]
+    Line(#[from] LineError),
+}
+
+/// A line to plan along, with what the route says about its lanes.
+#[derive(Clone, Debug)]
+pub struct RouteLine {
+    /// The line; the same one until it has to grow.
+    pub line: Arc<ReferenceLine>,
+    /// The lanes of this tick's window, and what they are for.
+    pub segments: RouteSegments,
+}
+
+/// Follows a route with smooth lines.
+#[derive(Clone, Debug)]
+pub struct LineProvider {
+    roads: Arc<RoadMap>,
+    follow: LaneFollowMap,
+    vehicle: VehicleParams,
+    lines: Vec<StitchedLine>,
+}
+
+impl LineProvider {
+    /// Begins to follow a route.
+    ///
+    /// # Errors
+    /// [`ProviderError`] when the map or the route cannot be followed.
+    pub fn new(
+        roads: Arc<RoadMap>,
+        hd_map: Arc<HdMap>,
+        route: RoutingResponse,
+        vehicle: VehicleParams,
+    ) -> Result<Self, ProviderError> {
+        let mut follow = LaneFollowMap::new(hd_map, LaneFollowConfig::default());
+        follow.update_route(route)?;
+        Ok(Self {
+            roads,
+            follow,
+            vehicle,
+            lines: Vec::new(),
+        })
+    }
+
+    /// What is known of the route and the car on it.
+    pub fn lane_follow_map(&self) -> &LaneFollowMap {
+        &self.follow
+    }
+
+    /// The lines for a car in this state: that of its own passage first, then those that it can change to. A passage
+    /// beside the own one that gives no line is left out.
+    ///
+    /// # Errors
+    /// [`ProviderError`] when the car is not on the route, or its own lanes give no line.
+    pub fn lines(&mut self, state: &VehicleState) -> Result<Vec<RouteLine>, ProviderError> {
+        let mut windows = self.follow.route_segments(state)?;
+        windows.sort_by_key(|window| !window.is_on_segment);
+        let mut kept = Vec::with_capacity(windows.len());
+        let mut lines = Vec::with_capacity(windows.len());
+        for window in windows {
+            match self.line_for(state, &window) {
+                Ok(line) => {
+                    lines.push(RouteLine {
+                        line: Arc::clone(line.line()),
+                        segments: window,
+                    });
+                    kept.push(line);
+                }
+                Err(error) if window.is_on_segment => return Err(error),
+                Err(_) => {}
+            }
+        }
+        self.lines = kept;
+        Ok(lines)
+    }
+
+    /// A line that holds a window: one of the last tick's, grown if it has to be, else a new one.
+    fn line_for(&mut self, state: &VehicleState, window: &RouteSegments) -> Result<StitchedLine, ProviderError> {
+        if let Some(line) = self.lines.iter().find(|line| line.covers(&window.segments)) {
+            return Ok(line.clone());
+        }
+        let chain = self.follow.longer(window, EXTENSION).segments;
+        for line in &self.lines {
+            let Some(longer) = line.led_on(&self.roads, &chain, &self.vehicle) else { continue };
+            let longer = longer?;
+            let here = longer.line().to_frenet(state.position).s;
+            return Ok(if here - longer.line().start() > LONGEST_BEHIND {
+                longer.cut_behind(here, KEPT_BEHIND)
+            } else {
+                longer
+            });
+        }
+        Ok(StitchedLine::new(&self.roads, chain, &self.vehicle)?)
+    }
+}
