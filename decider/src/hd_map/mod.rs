@@ -16,6 +16,8 @@ mod query;
 mod segment;
 mod shape;
 #[cfg(test)]
+pub(crate) mod testing;
+#[cfg(test)]
 mod tests;
 
 pub use boxes::SlBox;

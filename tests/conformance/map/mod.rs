@@ -11,7 +11,11 @@
 //! - the part of a line whose points share no lanes, which crashes the original: a line that follows no lane;
 //! - the nearest lane on the route when a nearer one runs the other way, which depends there on the order of a hash
 //!   set: any of the possible ones;
-//! - the nearest of lanes or pieces equally near: any of them.
+//! - the nearest of lanes or pieces equally near, and which way a lane runs at a corner: any of them;
+//! - the next of no waypoints, and the curvature of a lane whose heading passes π, where the original overflows and
+//!   forgets to wrap: none, and the wrapped one;
+//! - the nearest point between two points of a line, which the original searches coarsely: the exact one;
+//! - the speed limit of a lane that names none, 0 in the original: none.
 
 mod compare;
 mod json;

@@ -84,6 +84,7 @@ fn is_followed(expected: &Value) -> bool {
 #[derive(Deserialize)]
 struct Drive {
     routing: Routing,
+    #[serde(default)]
     states: Vec<State>,
     backward_length: Option<f64>,
     forward_length: Option<f64>,
@@ -332,7 +333,7 @@ pub(super) fn extend(case: &MapCase, map: &SharedMap) -> Result<(), String> {
     #[derive(Deserialize)]
     struct Query {
         road_passage: [usize; 2],
-        range_from_index: usize,
+        range_from_index: i64,
         start_s: f64,
         end_s: f64,
     }
@@ -344,7 +345,7 @@ pub(super) fn extend(case: &MapCase, map: &SharedMap) -> Result<(), String> {
     let mut answers = Vec::new();
     for query in queries {
         let [road, passage] = query.road_passage;
-        follow.update_range(query.range_from_index);
+        follow.update_range(usize::try_from(query.range_from_index).unwrap_or(0));
         let given = route.passage_segments(map, PassageId { road, passage });
         let given = given.ok_or_else(|| format!("passage {road}_{passage} has no lanes"))?;
         let extended = follow.extend(&given, query.start_s, query.end_s);
