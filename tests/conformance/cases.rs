@@ -1,5 +1,6 @@
 //! Reads files of cases and tells their kinds apart.
 
+use crate::map::MapCase;
 use crate::path_bounds::PathBoundsCase;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -8,12 +9,15 @@ use std::path::{Path, PathBuf};
 pub(crate) enum Case {
     /// A whole call of the path-bounds decider.
     PathBounds(Box<PathBoundsCase>),
+    /// A question to a map, a route or a line.
+    Map(Box<MapCase>),
 }
 
 impl Case {
     pub(crate) fn name(&self) -> &str {
         match self {
             Self::PathBounds(case) => &case.name,
+            Self::Map(case) => &case.name,
         }
     }
 }
@@ -31,7 +35,10 @@ pub(crate) enum CaseError {
         line: usize,
         source: serde_json::Error,
     },
-    #[error("{file}:{line}: unknown kind of case; known: path_bounds (`input.ref_line` and `input.status`)")]
+    #[error(
+        "{file}:{line}: unknown kind of case; known: path_bounds (`input.ref_line` and `input.status`), map (`map` \
+         and `function`)"
+    )]
     UnknownKind { file: PathBuf, line: usize },
 }
 
@@ -78,6 +85,11 @@ fn parse(file: &Path, line: usize, text: &str) -> Result<Case, CaseError> {
     let has = |key| value["input"].get(key).is_some();
     if has("ref_line") && has("status") && has("adc_sl_boundary") {
         return Ok(Case::PathBounds(Box::new(
+            serde_json::from_value(value).map_err(malformed)?,
+        )));
+    }
+    if value.get("map").is_some() && value.get("function").is_some() {
+        return Ok(Case::Map(Box::new(
             serde_json::from_value(value).map_err(malformed)?,
         )));
     }

@@ -38,7 +38,7 @@ impl SlBox {
     }
 
     fn middle(&self) -> f64 {
-        (self.start_s + self.end_s) / 2.0
+        self.start_s.midpoint(self.end_s)
     }
 }
 

@@ -9,11 +9,9 @@ use super::polyline::{Foot, Polyline, Projection, SAME_POINT};
 use crate::geometry::{Vec2, angle};
 use crate::road::{BoundaryType, LaneId, Neighbour, Side};
 
-/// How near a station counts as a vertex when headings and curvatures are asked for, m.
-const VERTEX_TOLERANCE: f64 = 1e-3;
-
-/// How far outside its edges and ends a point still is on a lane, m.
-const ON_LANE_TOLERANCE: f64 = 0.1;
+/// How far beyond its ends a point still is on a lane, and by how much curvatures take a piece for longer than it is,
+/// so that a piece without length has one, m.
+const TOLERANCE: f64 = 1e-3;
 
 /// A lane with its links, all of them to lanes of the same map. Immutable.
 #[derive(Clone, Debug)]
@@ -122,8 +120,8 @@ impl HdLane {
         if at == stations.len() {
             return self.headings[at - 1];
         }
-        if at == 0 || stations[at] - s <= VERTEX_TOLERANCE {
-            return self.headings[at];
+        if at == 0 {
+            return self.headings[0];
         }
         let t = (s - stations[at - 1]) / (stations[at] - stations[at - 1]);
         between(self.headings[at - 1], self.headings[at], t)
@@ -137,7 +135,7 @@ impl HdLane {
             return 0.0;
         }
         let turn = angle::difference(self.headings[at], self.headings[at - 1]);
-        turn / (stations[at] - stations[at - 1] + VERTEX_TOLERANCE)
+        turn / (stations[at] - stations[at - 1] + TOLERANCE)
     }
 
     fn vertex_not_before(&self, s: f64) -> usize {
@@ -187,12 +185,12 @@ impl HdLane {
         self.centre.foot(point)
     }
 
-    /// Whether `point` lies between the edges and ends of the lane, or at most 0.1 m outside.
+    /// Whether `point` lies strictly between the edges of the lane, and between its ends.
     pub fn contains(&self, point: Vec2) -> bool {
         let Projection { s, l, .. } = self.project(point);
         let (left, right) = self.width_at(s);
-        let along = s >= -ON_LANE_TOLERANCE && s <= self.length() + ON_LANE_TOLERANCE;
-        along && l < left + ON_LANE_TOLERANCE && l > -right - ON_LANE_TOLERANCE
+        let along = s >= -TOLERANCE && s <= self.length() + TOLERANCE;
+        along && l < left && l > -right
     }
 }
 

@@ -58,13 +58,10 @@ impl Path {
     /// The same for a line that ends at its ends: no station is beyond them.
     pub fn nearest(&self, point: Vec2) -> Projection {
         let at = self.project(point);
-        let s = at.s.clamp(0.0, self.length());
-        let distance = if s == at.s {
-            at.distance
-        } else {
-            (point - self.line.point_at(s)).norm()
-        };
-        Projection { s, distance, ..at }
+        Projection {
+            s: at.s.clamp(0.0, self.length()),
+            ..at
+        }
     }
 
     /// Heading of the line where it is nearest to `point`.
@@ -84,7 +81,7 @@ impl Path {
     pub fn chord_point(&self, point: Vec2) -> PathPoint {
         let distance = |k: &usize| (self.points[*k].position - point).norm_squared();
         let nearest = (0..self.points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let nearest = nearest.expect("a line has points");
+        let nearest = nearest.unwrap_or(0);
         let (from, to) = (
             &self.points[nearest.saturating_sub(1)],
             &self.points[(nearest + 1).min(self.points.len() - 1)],

@@ -10,7 +10,7 @@ use super::lane::{HdLane, Links};
 use super::shape::Layer;
 use crate::geometry::Vec2;
 use crate::road::LaneId;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Why map data make no map.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -156,7 +156,7 @@ impl HdMap {
 struct Linker<'a> {
     lanes: &'a BTreeMap<String, LaneId>,
     overlaps: BTreeMap<&'a str, (usize, &'a Overlap)>,
-    objects: BTreeMap<(ObjectKind, &'a str), ()>,
+    objects: BTreeSet<(ObjectKind, &'a str)>,
     roads: BTreeMap<&'a str, (&'a str, &'a str)>,
 }
 
@@ -183,7 +183,7 @@ impl<'a> Linker<'a> {
             overlaps: numbered
                 .map(|(k, overlap)| (overlap.id.as_str(), (k, overlap)))
                 .collect(),
-            objects: objects(data).map(|(kind, id)| ((kind, id), ())).collect(),
+            objects: objects(data).collect(),
             roads,
         })
     }
@@ -216,7 +216,7 @@ impl<'a> Linker<'a> {
             };
             for object in overlap.objects.iter().filter(|object| object.id != lane.id) {
                 for kind in ObjectKind::ALL {
-                    if self.objects.contains_key(&(kind, object.id.as_str())) {
+                    if self.objects.contains(&(kind, object.id.as_str())) {
                         by_kind[kind.index()].push(*place);
                     }
                 }

@@ -17,6 +17,8 @@ mod query;
 mod segment;
 mod shape;
 #[cfg(test)]
+pub(crate) mod testing;
+#[cfg(test)]
 mod tests;
 
 pub use boxes::SlBox;

@@ -38,6 +38,7 @@ pub struct PathPoint {
 }
 
 /// Defects of the original's lines that can be switched on one by one.
+#[expect(clippy::struct_excessive_bools, reason = "each is an independent switch")]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PathQuirks {
@@ -327,7 +328,7 @@ fn check(map: &HdMap, points: &[PathPoint]) -> Result<(), PathError> {
 /// Points of a lane's centre line in `segment`, with its ends.
 fn points_of(lane: &HdLane, segment: &LaneSegment) -> Vec<PathPoint> {
     let (start, end) = (segment.start_s.max(0.0), segment.end_s.min(lane.length()));
-    if !(start < end) {
+    if start.is_nan() || end.is_nan() || start >= end {
         return Vec::new();
     }
     let point = |s: f64| PathPoint {
