@@ -9,8 +9,8 @@ const LIMIT: f64 = 5e6;
 /// that grows with the square of its reach.
 const CELL: f64 = 8.0;
 
-/// What holding a cross-section against one piece of a polyline costs: a few multiplications.
-const COMPARISON: f64 = 1e-3;
+/// What holding a cross-section against one piece of a polyline costs: some multiplications.
+const COMPARISON: f64 = 1e-2;
 
 /// What has been spent.
 #[derive(Debug, Default)]
