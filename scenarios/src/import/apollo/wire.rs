@@ -27,7 +27,10 @@ impl<'a> Records<'a> {
     /// The next length-delimited field: its number and its bytes. Others are skipped.
     pub(super) fn next_record(&mut self) -> Result<Option<(u32, &'a [u8])>, NoField> {
         let at = self.bytes.len() - self.rest.len();
-        let no_field = |problem: String| NoField { at, problem };
+        let no_field = |problem: String| NoField {
+            at,
+            problem: problem.replace("failed to decode Protobuf message: ", ""),
+        };
         while !self.rest.is_empty() {
             let (number, kind) = decode_key(&mut self.rest).map_err(|e| no_field(e.to_string()))?;
             if kind != WireType::LengthDelimited {

@@ -10,7 +10,7 @@ const LIMIT: f64 = 5e6;
 const CELL: f64 = 8.0;
 
 /// What holding a cross-section against one piece of a polyline costs: some multiplications.
-const COMPARISON: f64 = 1e-2;
+const COMPARISON: f64 = 0.02;
 
 /// What has been spent.
 #[derive(Debug, Default)]
