@@ -19,9 +19,14 @@ pub(super) struct Budget {
 }
 
 impl Budget {
-    /// Accounts for `count` cross-sections of a lane, each `reach` wide or long.
-    pub(super) fn cross_sections(&mut self, count: f64, reach: f64, lane: &str) -> Result<(), ImportError> {
-        self.spend(count * (1.0 + (reach / CELL) * (reach / CELL)), lane)
+    /// Accounts for `count` cross-sections of a lane that are about to be made.
+    pub(super) fn cross_sections(&mut self, count: f64, lane: &str) -> Result<(), ImportError> {
+        self.spend(count, lane)
+    }
+
+    /// Accounts for a stretch of lane whose farthest corners are `reach` apart.
+    pub(super) fn stretch(&mut self, reach: f64, lane: &str) -> Result<(), ImportError> {
+        self.spend((reach / CELL) * (reach / CELL), lane)
     }
 
     /// Accounts for `count` comparisons of a cross-section with a piece of a polyline.

@@ -203,6 +203,13 @@ pub(super) struct Curve {
     pub(super) pieces: Vec<Piece>,
 }
 
+impl Curve {
+    /// Length of the polyline that it follows, m.
+    pub(super) fn drawn_length(&self) -> f64 {
+        self.pieces.last().map_or(0.0, |piece| piece.end.station)
+    }
+}
+
 /// A stretch of a curve between two knots.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {

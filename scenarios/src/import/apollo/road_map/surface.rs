@@ -53,12 +53,11 @@ pub(super) fn apply(
                 .map(|point| outermost(point, side, &edges))
                 .collect();
             for (point, distance) in lane.points.iter_mut().zip(filled(&found)) {
-                match side {
-                    Side::Left => point.road_left = distance.map_or(point.road_left, |d| d.max(point.left)),
-                    Side::Right => {
-                        point.road_right = distance.map_or(point.road_right, |d| d.max(point.right))
-                    }
-                }
+                let (road, own) = match side {
+                    Side::Left => (&mut point.road_left, point.left),
+                    Side::Right => (&mut point.road_right, point.right),
+                };
+                *road = distance.map_or(*road, |distance| distance.max(own));
             }
         }
     }

@@ -87,10 +87,10 @@ pnc_junction { id { id: "pnc" } }
 fn varint(mut value: u64) -> Vec<u8> {
     let mut bytes = Vec::new();
     while value >= 128 {
-        bytes.push((value & 127) as u8 | 128);
+        bytes.push(u8::try_from(value & 127).unwrap() | 128);
         value >>= 7;
     }
-    bytes.push(value as u8);
+    bytes.push(u8::try_from(value).unwrap());
     bytes
 }
 

@@ -140,7 +140,7 @@ fn deep_nesting_is_refused() {
         deep = outer;
     }
     assert!(read_map(&deep).is_err());
-    assert!(message(&[0x1b; 100_000]).contains("byte 0: recursion limit reached"));
+    assert!(message(&vec![0x1b; 100_000]).contains("byte 0: recursion limit reached"));
 }
 
 /// Lists of nothing, in both forms: refused at the first, or at a limit, before they take memory.

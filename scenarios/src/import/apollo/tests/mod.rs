@@ -27,10 +27,11 @@ fn named<'a>(map: &'a RoadMap, name: &str) -> &'a Lane {
 
 /// `segment { line_segment { point ... } }` of a curve.
 fn curve(points: &[(f64, f64)]) -> String {
-    let points: String = points
+    let points: Vec<String> = points
         .iter()
         .map(|(x, y)| format!("point {{ x: {x} y: {y} }} "))
         .collect();
+    let points = points.concat();
     format!("segment {{ line_segment {{ {points}}} }}")
 }
 

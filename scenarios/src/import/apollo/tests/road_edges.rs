@@ -17,10 +17,11 @@ fn edge(kind: &str, y: f64, along: bool) -> String {
 
 /// A road of the lanes `names` between edges.
 fn road(names: &[&str], edges: &str) -> String {
-    let names: String = names
+    let names: Vec<String> = names
         .iter()
         .map(|name| format!("lane_id {{ id: \"{name}\" }} "))
         .collect();
+    let names = names.concat();
     format!("road {{ id {{ id: \"r\" }} section {{ {names} boundary {{ outer_polygon {{ {edges} }} }} }} }}")
 }
 
