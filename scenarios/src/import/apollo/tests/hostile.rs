@@ -27,7 +27,13 @@ fn what_is_not_a_map_says_so() {
     assert!(message(b"lane { \xff }").contains("byte 7: the text is not UTF-8 here"));
     assert!(message(&[0x22, 200, 1, 0]).contains("byte 0: field 4 says it has 200 bytes, but 1 are left"));
     assert!(message(&[0x27, 0]).contains("byte 0: invalid wire type value: 7"));
-    assert!(message(&[0x22, 2, 0x0a, 9]).contains("lane[0] cannot be decoded"));
+    let undecodable = "lane[0] cannot be decoded at `id`: buffer underflow; expected a message of Apollo's";
+    assert_eq!(message(&[0x22, 2, 0x0a, 9]), undecodable);
+    // A polyline in whose first point x is a string.
+    let nested = [0x22, 10, 0x12, 8, 0x0a, 6, 0x0a, 4, 0x0a, 2, 0x0a, 0];
+    let undecodable =
+        "lane[0] cannot be decoded at `central_curve.segment.line_segment.point.x`: invalid wire type";
+    assert!(message(&nested).starts_with(undecodable), "{}", message(&nested));
 }
 
 /// What is replaced, by what, and what the message must say.
