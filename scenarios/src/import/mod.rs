@@ -4,7 +4,7 @@
 //! line, the column and what would have been right. No input makes it panic or run without end.
 
 mod error;
-#[cfg_attr(not(test), expect(dead_code, reason = "the readers of lanelets are being written"))]
+pub mod lanelet2;
 mod lanelets;
 mod notes;
 pub mod opendrive;
