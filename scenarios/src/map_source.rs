@@ -1,12 +1,15 @@
 //! Finds and reads the map that a scenario names, once for all its seeds.
 
 use crate::error::{Place, ScenarioError};
-use crate::import::opendrive;
+use crate::import::{lanelet2, opendrive};
 use crate::maps;
 use corridor_decider::road::RoadMap;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
+
+/// Endings of map files.
+const MAP_ENDINGS: [&str; 2] = ["xodr", "osm"];
 
 /// Stands for the folder of shared maps in a scenario's map path.
 const MAPS_PREFIX: &str = "$MAPS/";
@@ -89,7 +92,7 @@ impl MapCache {
         } else {
             let text = maps::embedded(name).ok_or_else(|| {
                 not_found(format!(
-                    "expected one of {} or a path ending in `.xodr`",
+                    "expected one of {} or a path ending in `.xodr` or `.osm`",
                     own_maps()
                 ))
             })?;
@@ -110,13 +113,26 @@ impl MapCache {
     }
 }
 
+/// Reads a map by what its text begins with: a trace knows no file name.
 fn read(text: Arc<str>) -> Result<LoadedMap, String> {
-    let import = opendrive::read(&text).map_err(|e| e.to_string())?;
+    let (map, warnings) = if is_lanelet2(&text) {
+        let import = lanelet2::read(&text).map_err(|e| e.to_string())?;
+        (import.map, import.warnings)
+    } else {
+        let import = opendrive::read(&text).map_err(|e| e.to_string())?;
+        (import.map, import.warnings)
+    };
     Ok(LoadedMap {
-        map: Arc::new(import.map),
+        map: Arc::new(map),
         text,
-        warnings: import.warnings.into(),
+        warnings: warnings.into(),
     })
+}
+
+/// Whether the root element is that of Lanelet2.
+fn is_lanelet2(text: &str) -> bool {
+    let root = |name: &str| text.find(name).unwrap_or(usize::MAX);
+    root("<osm") < root("<OpenDRIVE")
 }
 
 /// The own maps, for a message.
@@ -129,7 +145,7 @@ fn is_path(name: &str) -> bool {
     name.contains(['/', '\\'])
         || Path::new(name)
             .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("xodr"))
+            .is_some_and(|e| MAP_ENDINGS.iter().any(|known| e.eq_ignore_ascii_case(known)))
 }
 
 /// The path that a map name means, or where it was looked for in vain.

@@ -127,7 +127,7 @@ fn finite(text: &str) -> Option<f64> {
         .filter(|number| number.is_finite())
 }
 
-fn way<'a>(element: Element<'a>) -> Result<WayRecord<'a>, ImportError> {
+fn way(element: Element<'_>) -> Result<WayRecord<'_>, ImportError> {
     let nodes = element.children("nd").map(|nd| nd.id("ref"));
     Ok(WayRecord {
         nodes: nodes.collect::<Result<_, _>>()?,
@@ -155,7 +155,7 @@ fn relation<'a>(element: Element<'a>, id: i64) -> Result<RelationRecord<'a>, Imp
 }
 
 /// All tags that have a key; those without a value say nothing.
-fn tags<'a>(element: Element<'a>) -> Tags<'a> {
+fn tags(element: Element<'_>) -> Tags<'_> {
     element
         .children("tag")
         .filter_map(|tag| Some((tag.text("k")?, tag.text("v")?)))

@@ -87,7 +87,7 @@ fn coarse_chords_of_a_bend_give_its_heading_and_curvature() {
     let lane = &map.lanes()[0];
     assert!((lane.length() - 28.0 * PI).abs() < 0.2, "{}", lane.length());
     for p in &lane.points {
-        let (radius, turn) = (p.x.hypot(p.y), p.y.atan2(p.x));
+        let (radius, turn) = (libm::hypot(p.x, p.y), libm::atan2(p.y, p.x));
         assert!((radius - 28.0).abs() < 0.08, "{radius} at {}", p.s);
         let off = angle::difference(p.theta, turn + FRAC_PI_2);
         assert!(off.abs() < 0.02, "heading {off} off at {}", p.s);
@@ -146,7 +146,7 @@ fn lanes_go_on_smoothly_through_a_polyline_cut_at_its_kinks() {
     for pair in map.lanes().windows(2) {
         assert_eq!(pair[1].predecessors.len(), 1);
         let (end, start) = (pair[0].points.last().unwrap(), &pair[1].points[0]);
-        assert!((end.x - start.x).hypot(end.y - start.y) < 1e-9);
+        assert!(libm::hypot(end.x - start.x, end.y - start.y) < 1e-9);
         assert!(angle::difference(end.theta, start.theta).abs() < 1e-12);
         assert!((end.kappa - start.kappa).abs() < 1e-12);
     }
