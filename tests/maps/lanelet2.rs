@@ -2,7 +2,7 @@
 
 use crate::support::{assert_sound, count, map_file, named, successors, worst_joint};
 use corridor_decider::geometry::angle;
-use corridor_decider::road::{BoundaryType, Lane, LaneId, LaneKind, Neighbour, RoadMap, Side};
+use corridor_decider::road::{BoundaryType, Lane, LaneId, LaneKind, LanePoint, Neighbour, RoadMap, Side};
 use corridor_scenarios::import::lanelet2::{self, Lanelet2Import};
 
 /// A map that passed the general checks.
@@ -56,7 +56,7 @@ fn assert_consistent(map: &RoadMap) {
 
 /// Largest difference between a chord and the mean heading of its ends, rad.
 fn worst_heading(lane: &Lane) -> f64 {
-    let off = |pair: &[corridor_decider::road::LanePoint]| {
+    let off = |pair: &[LanePoint]| {
         let chord = (pair[1].y - pair[0].y).atan2(pair[1].x - pair[0].x);
         let mean = pair[0].theta + angle::difference(pair[1].theta, pair[0].theta) / 2.0;
         angle::difference(chord, mean).abs()
@@ -64,8 +64,9 @@ fn worst_heading(lane: &Lane) -> f64 {
     lane.points.windows(2).map(off).fold(0.0, f64::max)
 }
 
-fn kmh(lane: &Lane) -> f64 {
-    (lane.points[0].speed_limit * 3.6).round()
+/// Speed limit in km/h.
+fn kmh(lane: &Lane) -> String {
+    format!("{:.0}", lane.points[0].speed_limit * 3.6)
 }
 
 fn assert_told(warnings: &[String], what: &str, times: usize) {
@@ -102,7 +103,7 @@ fn mapping_example_has_roads_for_both_directions() {
     assert_lanes(&map, LaneKind::Rail, 2, 275.1, 0.01);
     assert!(!left_hand_traffic);
     assert!(map.junctions().is_empty());
-    assert!(map.lanes().iter().all(|lane| kmh(lane) == 50.0));
+    assert!(map.lanes().iter().all(|lane| kmh(lane) == "50"));
     assert_told(&warnings, "without a speed limit", 328);
     assert_told(&warnings, "both directions", 60);
     assert_told(&warnings, "an area for parking", 19);
@@ -130,6 +131,34 @@ fn mapping_example_is_linked_by_shared_nodes_and_ways() {
     assert_eq!(driving().filter(off).count(), 4, "no wedge, but off the middle");
 }
 
+/// What the smoothing costs and what it brings, on roads drawn with points metres apart.
+#[test]
+fn mapping_example_is_smooth_and_in_the_middle() {
+    let Some(Lanelet2Import { map, .. }) = load("mapping_example") else {
+        return;
+    };
+    let driving = || map.lanes().iter().filter(|lane| lane.kind == LaneKind::Driving);
+    let off = driving()
+        .flat_map(|lane| &lane.points)
+        .map(|p| (p.left - p.right).abs() / 2.0);
+    assert_quantiles(off.collect(), [(0.5, 0.025), (0.9, 0.2), (0.98, 0.8)]);
+    let change = |p: &[LanePoint]| (p[1].kappa - p[0].kappa).abs() / (p[1].s - p[0].s);
+    let changes = driving().flat_map(|lane| lane.points.windows(2)).map(change);
+    assert_quantiles(changes.collect(), [(0.5, 1.2e-3), (0.9, 0.012), (0.98, 0.06)]);
+}
+
+/// Checks that shares of the values are below limits.
+fn assert_quantiles(mut values: Vec<f64>, limits: [(f64, f64); 3]) {
+    values.sort_by(f64::total_cmp);
+    for (share, limit) in limits {
+        let below = values.partition_point(|value| *value < limit);
+        assert!(
+            below as f64 >= share * values.len() as f64,
+            "less than {share} of them below {limit}"
+        );
+    }
+}
+
 #[test]
 fn autoware_has_shoulders_and_a_junction() {
     let Some(Lanelet2Import {
@@ -145,9 +174,11 @@ fn autoware_has_shoulders_and_a_junction() {
     assert_lanes(&map, LaneKind::Sidewalk, 5, 115.8, 0.1);
     assert_lanes(&map, LaneKind::Shoulder, 2, 58.6, 0.01);
     assert!(!left_hand_traffic);
-    assert!(warnings.is_empty(), "{warnings:?}");
+    // The twin of a map with left-hand traffic kept the words for turning.
+    assert_told(&warnings, "turns the other way", 8);
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
     let at = |limit| map.lanes().iter().filter(|lane| kmh(lane) == limit).count();
-    assert_eq!((at(60.0), at(30.0), at(10.0)), (50, 6, 12));
+    assert_eq!((at("60"), at("30"), at("10")), (50, 6, 12));
     assert_eq!(
         map.lanes().iter().filter(|lane| lane.junction.is_some()).count(),
         20

@@ -19,6 +19,9 @@ use std::collections::BTreeMap;
 /// Most points of all bounds together: a way counts once for each lanelet that uses it.
 const MOST_POINTS: usize = 5_000_000;
 
+/// A lane that turns by more is meant to turn, rad.
+const CLEAR_TURN: f64 = std::f64::consts::FRAC_PI_4;
+
 /// All lanes of a file, list by list. The twin of a lanelet for both directions follows right behind it.
 #[derive(Default)]
 struct Lanes<'a> {
@@ -195,7 +198,21 @@ fn bounds(
         note(notes, "a centre line that is drawn is not used", relation);
     }
     let (left, right) = aligned(left, right);
-    Some(Bounds { left, right })
+    let bounds = Bounds { left, right };
+    if !turns_as_told(&bounds, &relation.tags) {
+        let what = "a lanelet turns the other way than its `turn_direction` says; its bounds are believed";
+        note(notes, what, relation);
+    }
+    Some(bounds)
+}
+
+/// Whether nothing is said about turning, or the lane does not clearly turn the other way.
+fn turns_as_told(bounds: &Bounds, tags: &Tags<'_>) -> bool {
+    match tags.get("turn_direction").copied() {
+        Some("left") => bounds.turn() > -CLEAR_TURN,
+        Some("right") => bounds.turn() < CLEAR_TURN,
+        _ => true,
+    }
 }
 
 fn kind_of(relation: &RelationRecord<'_>, notes: &mut Notes<'_>) -> LaneKind {

@@ -1,6 +1,7 @@
 //! Which lanes follow and which lie beside each other, by the ways and nodes that they share.
 
 use super::bounds::Bound;
+use corridor_decider::geometry::cross;
 use corridor_decider::road::{Neighbour, Side};
 use std::collections::BTreeMap;
 
@@ -19,6 +20,16 @@ impl Bounds {
     /// Left and right node where the lane begins (0) or ends (1).
     fn cut(&self, end: usize) -> [i64; 2] {
         [self.left.ends[end], self.right.ends[end]]
+    }
+
+    /// By how much the lane turns from its first chord to its last one, rad, left positive.
+    pub(super) fn turn(&self) -> f64 {
+        let [first, second, ..] = self.left.points[..] else {
+            return 0.0;
+        };
+        let last = &self.left.points[self.left.points.len() - 2..];
+        let (before, after) = (second - first, last[1] - last[0]);
+        libm::atan2(cross(before, after), before.dot(&after))
     }
 
     /// The bounds of the lane that leads back on the same ground.

@@ -161,6 +161,19 @@ fn name_of_first(map: &RoadMap) -> &str {
 }
 
 #[test]
+fn a_turn_that_is_none_is_told() {
+    let told = |turn| {
+        let osm = lines().node(50, 22.0, 30.0).node(51, 43.0, 30.0);
+        let osm = osm.way(5, &[20, 21, 50], &[]).way(6, &[40, 42, 51], &[]);
+        let file = osm.lanelet(9, 5, 6, &[("turn_direction", turn)]).read();
+        file.warnings
+            .iter()
+            .any(|warning| warning.contains("turns the other way"))
+    };
+    assert!(told("right") && !told("left") && !told("straight"));
+}
+
+#[test]
 fn a_shoulder_is_part_of_the_road_and_no_neighbour() {
     let map = lines()
         .lanelet(100, 2, 3, &[])
