@@ -177,3 +177,19 @@ fn shared_maps() -> PathBuf {
         PathBuf::from,
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_text_tells_its_format() {
+        let problem = |text: &str| MapCache::holding(text).map(|_| ()).unwrap_err();
+        assert_eq!(
+            problem("<?xml version='1.0'?><osm/>"),
+            "the map has no drivable lane"
+        );
+        let osm_inside = problem("<OpenDRIVE><road><osm/></road></OpenDRIVE>");
+        assert!(osm_inside.contains("<road> has no `id`"), "{osm_inside}");
+    }
+}

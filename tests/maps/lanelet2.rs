@@ -33,7 +33,7 @@ fn assert_consistent(map: &RoadMap) {
             );
         }
         for next in &lane.successors {
-            let (end, start) = (lane.points.last().unwrap(), map.lane(*next).points[0]);
+            let (end, start) = (lane.points[lane.points.len() - 1], map.lane(*next).points[0]);
             assert!((end.x - start.x).hypot(end.y - start.y) < 1e-9, "{}", lane.name);
             assert!(
                 angle::difference(end.theta, start.theta).abs() < 1e-9,

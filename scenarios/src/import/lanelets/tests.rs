@@ -234,6 +234,20 @@ fn neighbours_that_only_one_side_names_are_mutual() {
 }
 
 #[test]
+fn the_far_edge_of_an_oncoming_lane_is_looked_up_from_its_end() {
+    let mut own = lanelet("own", &[(0.0, 3.0), (100.0, 3.0)], &[(0.0, 0.0), (100.0, 0.0)]);
+    own.neighbours[ONCOMING.index()] = Some(1);
+    // It is 3 m wide where it begins, at x = 100, and 8 m where it ends.
+    let oncoming = lanelet(
+        "oncoming",
+        &[(100.0, 3.0), (0.0, 3.0)],
+        &[(100.0, 6.0), (0.0, 11.0)],
+    );
+    let map = map(&[own, oncoming]);
+    assert!(worst(&map.lanes()[0], |p| p.road_left - (9.5 - 0.05 * p.x)) < 1e-6);
+}
+
+#[test]
 fn links_between_lanes_that_do_not_meet_are_told() {
     let mut a = lanelet("a", &[(0.0, 4.0), (9.0, 4.0)], &[(0.0, 0.0), (9.0, 0.0)]);
     a.successors = vec![1];
