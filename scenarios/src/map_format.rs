@@ -4,7 +4,7 @@
 //! content. Binary maps are kept in hexadecimal behind a first line that says so: twice the size, which compression
 //! takes back.
 
-use crate::import::{ImportError, apollo, opendrive};
+use crate::import::{ImportError, apollo, lanelet2, opendrive};
 use corridor_decider::road::RoadMap;
 use std::fmt::Write as _;
 
@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 const BINARY: &str = "# a binary map in hexadecimal\n";
 
 /// Endings of the map files that can be read.
-pub(crate) const ENDINGS: [&str; 3] = ["xodr", "bin", "txt"];
+pub(crate) const ENDINGS: [&str; 4] = ["xodr", "osm", "bin", "txt"];
 
 /// The content of a map file as text. Bytes of a text that are not UTF-8 (names in older encodings) are replaced.
 pub(crate) fn as_text(bytes: &[u8]) -> String {
@@ -35,8 +35,30 @@ pub(crate) fn read(text: &str) -> Result<(RoadMap, Vec<String>), ImportError> {
     if is_apollo_text(text) {
         return apollo::to_road_map(&apollo::read_map(text.as_bytes())?);
     }
+    if root_element(text) == Some("osm") {
+        let import = lanelet2::read(text)?;
+        return Ok((import.map, import.warnings));
+    }
     let import = opendrive::read(text)?;
     Ok((import.map, import.warnings))
+}
+
+/// Name of the first element behind declarations and comments.
+fn root_element(text: &str) -> Option<&str> {
+    let mut rest = text;
+    loop {
+        rest = &rest[rest.find('<')?..];
+        let past = match rest {
+            comment if comment.starts_with("<!--") => comment.find("-->")? + 3,
+            declaration if declaration.starts_with("<?") => declaration.find("?>")? + 2,
+            declaration if declaration.starts_with("<!") => declaration.find('>')? + 1,
+            element => {
+                let name = element[1..].split(|c: char| c.is_whitespace() || matches!(c, '>' | '/'));
+                return name.into_iter().next();
+            }
+        };
+        rest = &rest[past..];
+    }
 }
 
 /// Messages are full of control characters, XML and the text form of messages have none but blanks.
@@ -117,7 +139,11 @@ mod tests {
     #[test]
     fn the_reader_is_chosen_by_content() {
         let problem = |text: &str| read(text).unwrap_err().to_string();
-        assert!(problem("<commonRoad/>").contains("expected <OpenDRIVE>"));
+        assert!(problem("<html/>").contains("expected <OpenDRIVE>"));
+        let lanelet2 = "<!-- no <OpenDRIVE> --><?xml version='1.0'?><osm/>";
+        assert_eq!(problem(lanelet2), "the map has no drivable lane");
+        let inside = problem("<!-- no <osm> --><OpenDRIVE><road><osm/></road></OpenDRIVE>");
+        assert!(inside.contains("<road> has no `id`"), "{inside}");
         assert!(problem("junk <?xml version='1.0'?><a/>").contains("expected <OpenDRIVE>"));
         assert!(problem("").contains("not well-formed XML"));
         assert!(problem("\n# head\n header { version: 1 }").contains("lane the map has none"));

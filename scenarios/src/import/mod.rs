@@ -5,6 +5,7 @@
 
 pub mod apollo;
 mod error;
+pub mod lanelet2;
 mod lanelets;
 mod notes;
 pub mod opendrive;
