@@ -41,9 +41,17 @@ pub(super) fn bound(
     let extension = (input.config.is_extend_lane_bounds_to_include_adc || rules.force_extend)
         .then(|| Extension::new(input, stations[0].offset, rules.buffer));
     let mut borrowed = None;
-    let mut bound = Vec::with_capacity(stations.len());
+    let mut bound: Vec<BoundPoint> = Vec::with_capacity(stations.len());
 
     for (own, station) in lane.iter().zip(stations) {
+        // Most stations look like the one before; only what the ego widened there changes along the way.
+        if let Some(before) = bound
+            .last()
+            .filter(|before| own.is_as_before && !is_widened(before))
+        {
+            bound.push(BoundPoint { s: own.s, ..*before });
+            continue;
+        }
         let neighbour = borrowed_width(station, input, rules.borrow);
         if let Some((_, reverse)) = neighbour {
             borrowed = Some(borrowed.unwrap_or(false) || reverse);
@@ -63,6 +71,10 @@ pub(super) fn bound(
     (bound, lane)
 }
 
+fn is_widened(point: &BoundPoint) -> bool {
+    point.left == EdgeCause::Ego || point.right == EdgeCause::Ego
+}
+
 fn lane_type(borrow: Borrow, borrowed: Option<bool>, phantom: bool) -> Option<LaneType> {
     match (borrow, borrowed) {
         (Borrow::None, _) => Some(LaneType::Own),
@@ -76,6 +88,8 @@ fn lane_type(borrow: Borrow, borrowed: Option<bool>, phantom: bool) -> Option<La
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OwnLane {
     s: f64,
+    /// Whether the road is in everything what it is one station before.
+    is_as_before: bool,
     /// Lateral position of the reference line.
     offset: f64,
     /// Distances to its edges.
@@ -97,7 +111,16 @@ pub(super) fn own(stations: &[Station], input: &Input) -> Vec<OwnLane> {
         / 2.0;
     let (mut left, mut right) = (half_lane, half_lane);
     let (mut beside_left, mut beside_right) = (beside_line, beside_line);
-    let at = |station: &Station| {
+    let mut lane: Vec<OwnLane> = Vec::with_capacity(stations.len());
+    for (k, station) in stations.iter().enumerate() {
+        if k > 0 && station.is_alike(&stations[k - 1]) {
+            lane.push(OwnLane {
+                s: station.s,
+                is_as_before: true,
+                ..lane[k - 1]
+            });
+            continue;
+        }
         if let Some(lane) = station.lane {
             if let Some(road) = station.road {
                 let room = |lane: f64, road: f64| {
@@ -111,16 +134,17 @@ pub(super) fn own(stations: &[Station], input: &Input) -> Vec<OwnLane> {
             }
             (left, right) = (lane.0 + station.offset, lane.1 - station.offset);
         }
-        OwnLane {
+        lane.push(OwnLane {
             s: station.s,
+            is_as_before: false,
             offset: station.offset,
             left,
             right,
             beside_left,
             beside_right,
-        }
-    };
-    stations.iter().map(at).collect()
+        });
+    }
+    lane
 }
 
 impl OwnLane {
