@@ -28,6 +28,8 @@ pub(super) struct LaneRules {
     pub buffer: f64,
     /// Whether it holds the ego whatever the configuration says.
     pub force_extend: bool,
+    /// Station up to which it holds the ego in full, however far away: there the ego may not yet leave its lane.
+    pub hold_until: Option<f64>,
 }
 
 /// The bound that the lanes leave, up to where nothing is left, and whose lane is borrowed: `None` when there is
@@ -39,19 +41,11 @@ pub(super) fn bound(
     rules: LaneRules,
 ) -> (Vec<BoundPoint>, Option<LaneType>) {
     let extension = (input.config.is_extend_lane_bounds_to_include_adc || rules.force_extend)
-        .then(|| Extension::new(input, stations[0].offset, rules.buffer));
+        .then(|| Extension::new(input, stations[0].offset, rules));
     let mut borrowed = None;
-    let mut bound: Vec<BoundPoint> = Vec::with_capacity(stations.len());
+    let mut bound = Vec::with_capacity(stations.len());
 
     for (own, station) in lane.iter().zip(stations) {
-        // Most stations look like the one before; only what the ego widened there changes along the way.
-        if let Some(before) = bound
-            .last()
-            .filter(|before| own.is_as_before && !is_widened(before))
-        {
-            bound.push(BoundPoint { s: own.s, ..*before });
-            continue;
-        }
         let neighbour = borrowed_width(station, input, rules.borrow);
         if let Some((_, reverse)) = neighbour {
             borrowed = Some(borrowed.unwrap_or(false) || reverse);
@@ -71,10 +65,6 @@ pub(super) fn bound(
     (bound, lane)
 }
 
-fn is_widened(point: &BoundPoint) -> bool {
-    point.left == EdgeCause::Ego || point.right == EdgeCause::Ego
-}
-
 fn lane_type(borrow: Borrow, borrowed: Option<bool>, phantom: bool) -> Option<LaneType> {
     match (borrow, borrowed) {
         (Borrow::None, _) => Some(LaneType::Own),
@@ -88,8 +78,6 @@ fn lane_type(borrow: Borrow, borrowed: Option<bool>, phantom: bool) -> Option<La
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OwnLane {
     s: f64,
-    /// Whether the road is in everything what it is one station before.
-    is_as_before: bool,
     /// Lateral position of the reference line.
     offset: f64,
     /// Distances to its edges.
@@ -111,16 +99,7 @@ pub(super) fn own(stations: &[Station], input: &Input) -> Vec<OwnLane> {
         / 2.0;
     let (mut left, mut right) = (half_lane, half_lane);
     let (mut beside_left, mut beside_right) = (beside_line, beside_line);
-    let mut lane: Vec<OwnLane> = Vec::with_capacity(stations.len());
-    for (k, station) in stations.iter().enumerate() {
-        if k > 0 && station.is_alike(&stations[k - 1]) {
-            lane.push(OwnLane {
-                s: station.s,
-                is_as_before: true,
-                ..lane[k - 1]
-            });
-            continue;
-        }
+    let at = |station: &Station| {
         if let Some(lane) = station.lane {
             if let Some(road) = station.road {
                 let room = |lane: f64, road: f64| {
@@ -134,17 +113,16 @@ pub(super) fn own(stations: &[Station], input: &Input) -> Vec<OwnLane> {
             }
             (left, right) = (lane.0 + station.offset, lane.1 - station.offset);
         }
-        lane.push(OwnLane {
+        OwnLane {
             s: station.s,
-            is_as_before: false,
             offset: station.offset,
             left,
             right,
             beside_left,
             beside_right,
-        });
-    }
-    lane
+        }
+    };
+    stations.iter().map(at).collect()
 }
 
 impl OwnLane {
@@ -204,7 +182,7 @@ struct Extension {
 }
 
 impl Extension {
-    fn new(input: &Input, offset: f64, buffer: f64) -> Self {
+    fn new(input: &Input, offset: f64, rules: LaneRules) -> Self {
         let config = input.config;
         let center = input.ego.l + offset;
         let l_dot = input.ego.l_dot;
@@ -212,10 +190,12 @@ impl Extension {
         let overshoot = if l_dot > 0.0 { overshoot } else { -overshoot };
         let half_width = input.vehicle.half_width();
         let hold = (input.ego.s_dot * config.ego_extension_hold_time).max(LEAST_EXTENSION.0);
+        let zone = rules.hold_until.map_or(0.0, |s| s - input.ego.s);
+        let hold = hold.max(zone);
         let fade = (input.ego.s_dot * config.ego_extension_fade_time).max(LEAST_EXTENSION.1);
         Self {
-            left: center.max(center + overshoot) + half_width + buffer,
-            right: center.min(center + overshoot) - half_width - buffer,
+            left: center.max(center + overshoot) + half_width + rules.buffer,
+            right: center.min(center + overshoot) - half_width - rules.buffer,
             fade: (!config.quirks.endless_ego_extension).then_some((hold, hold + fade)),
         }
     }

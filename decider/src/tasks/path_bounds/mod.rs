@@ -21,6 +21,7 @@ mod search;
 mod stations;
 #[cfg(test)]
 mod tests;
+mod turn_in;
 
 pub use bound::{Borrow, BoundPoint, EdgeCause, Label, LaneType, PathBound};
 pub use config::{PathBoundsConfig, Quirks};
@@ -177,6 +178,7 @@ fn fallback(survey: &Survey, input: &Input) -> Made {
         borrow: Borrow::None,
         buffer: FALLBACK_EGO_BUFFER,
         force_extend: true,
+        hold_until: None,
     };
     let (mut points, _) = survey.lane_bound(input, rules);
     let mut passage = Passage::default();
@@ -203,19 +205,17 @@ fn lane_change<L: LineQuery + ?Sized>(
     input: &Input,
     memory: &mut Memory,
 ) -> Result<(), PathBoundsError> {
+    let zone_end = lane_change::zone_end(line, input, &mut memory.change_lane);
     let rules = LaneRules {
         borrow: Borrow::None,
         buffer: EGO_BUFFER,
         force_extend: true,
+        hold_until: zone_end,
     };
     let (mut points, _) = survey.lane_bound(input, rules);
-    lane_change::keep_out(
-        &mut points,
-        &survey.stations,
-        line,
-        input,
-        &mut memory.change_lane,
-    );
+    if let Some(end) = zone_end {
+        lane_change::keep_out(&mut points, &survey.stations, input, end);
+    }
     let made = around_obstacles(points, input, &survey.forbidden);
     if made.points.is_empty() {
         if input.config.quirks.lane_change_discards_fallback {
@@ -241,6 +241,7 @@ fn regular(result: &mut PathBounds, survey: &Survey, input: &Input) -> Result<()
             borrow: *borrow,
             buffer: EGO_BUFFER,
             force_extend: false,
+            hold_until: None,
         };
         let (points, Some(lane)) = survey.lane_bound(input, rules) else {
             continue;

@@ -34,17 +34,6 @@ pub struct Station {
     pub neighbours: [Option<f64>; 4],
 }
 
-impl Station {
-    /// Whether nothing but the station itself differs.
-    pub(super) fn is_alike(&self, other: &Self) -> bool {
-        self.lane == other.lane
-            && self.road == other.road
-            && self.offset.to_bits() == other.offset.to_bits()
-            && self.marks == other.marks
-            && self.neighbours == other.neighbours
-    }
-}
-
 /// Samples the line from the ego to the end of the horizon. Empty when the ego is at or past the line's end, or
 /// nowhere near the line.
 pub(super) fn sample<L: LineQuery + ?Sized>(line: &L, input: &Input) -> Vec<Station> {
