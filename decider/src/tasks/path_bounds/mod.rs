@@ -21,7 +21,6 @@ mod search;
 mod stations;
 #[cfg(test)]
 mod tests;
-mod turn_in;
 
 pub use bound::{Borrow, BoundPoint, EdgeCause, Label, LaneType, PathBound};
 pub use config::{PathBoundsConfig, Quirks};

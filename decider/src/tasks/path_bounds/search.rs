@@ -4,7 +4,6 @@ use super::bound::BoundPoint;
 use super::input::{Input, PullOverKind};
 use super::pull_over::PullOverRefusal;
 use super::stations::Station;
-use super::turn_in;
 use crate::geometry::Vec2;
 use crate::reference_line::{LineQuery, SlPoint};
 
@@ -17,6 +16,15 @@ const EXTRA_WIDTH_COEFF: f64 = 0.25;
 
 /// How far around a place no junction may be, m.
 const JUNCTION_RADIUS: f64 = 1.0;
+
+/// Share of the tightest turn that turning in to a place may take.
+const TURN_IN_SHARE: f64 = 0.55;
+
+/// How far before its place a car stands straight, m.
+const STRAIGHTEN: f64 = 2.0;
+
+/// Way before the place that is looked at for turning in, m: enough for any lane width.
+const TURN_IN_LENGTH: f64 = 20.0;
 
 /// A place that was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,8 +93,7 @@ pub(super) fn place<L: LineQuery + ?Sized>(
             (anchor, past)
         };
         let index = stop_index(input, start, end);
-        let l = bound[index].l_min + window.width / 2.0;
-        if !config.quirks.unreachable_place && !turn_in::is_possible(bound, input, index, l) {
+        if !config.quirks.unreachable_place && !is_reachable(bound, input, index, window) {
             continue;
         }
         let crosses_junction = || (start..=end).any(|k| line.near_junction(bound[k].s, JUNCTION_RADIUS));
@@ -172,6 +179,20 @@ fn fits(point: &BoundPoint, station: &Station, input: &Input, window: Window) ->
     };
     road_right - right_side <= input.config.pull_over_road_edge_buffer
         && point.l_max - point.l_min >= window.width
+}
+
+/// Whether the car can turn in to the place: two arcs of opposite bend move it aside by `κ d² / 4` over a
+/// distance `d`. So far right the corridor must reach all the way, and so near the ego must be.
+fn is_reachable(bound: &[BoundPoint], input: &Input, index: usize, window: Window) -> bool {
+    let kappa = TURN_IN_SHARE / input.vehicle.min_turn_radius;
+    let place = bound[index].l_min + window.width / 2.0;
+    let leftmost = |s: f64| {
+        let d = (bound[index].s - s - STRAIGHTEN).max(0.0);
+        place + kappa * d * d / 4.0
+    };
+    let near = |point: &&BoundPoint| bound[index].s - point.s <= TURN_IN_LENGTH;
+    let mut before = bound[..index].iter().rev().take_while(near);
+    input.ego.l <= leftmost(input.ego.s) && before.all(|point| point.l_min <= leftmost(point.s))
 }
 
 /// Where in the window the rear axle stands: the car is centred in it, by its length ahead and behind.
