@@ -71,6 +71,8 @@ impl EndingWatch {
             Ending::GoalReached
         } else if pull_over.is_done() {
             Ending::PulledOver
+        } else if pull_over.is_botched() {
+            Ending::PulledOverBadly
         } else if in_lane >= LANE_SETTLED && matches!(sample.scenario.command, Command::ChangeLane(_)) {
             Ending::LaneChanged
         } else if expect.allows_standstill() && standing >= STANDS_FOR && is_blocked() {
@@ -123,7 +125,7 @@ pub(super) fn is_expected(scenario: &Scenario, ending: Ending) -> bool {
         Ending::LaneChanged => expect == Expectation::LaneChanged,
         Ending::Refused => expect.allows_refusal(),
         Ending::StoodStill => expect.allows_standstill(),
-        Ending::Collision | Ending::Timeout | Ending::DeciderFailed => false,
+        Ending::PulledOverBadly | Ending::Collision | Ending::Timeout | Ending::DeciderFailed => false,
     }
 }
 

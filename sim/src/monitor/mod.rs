@@ -8,6 +8,7 @@
 //! which it happened.
 
 mod avoidance;
+mod blocks;
 mod bound_clearance;
 mod bounds;
 mod collision;
@@ -20,6 +21,7 @@ mod path_clearance;
 mod plan;
 mod progress;
 mod pull_over;
+mod reference_search;
 mod road;
 mod savitzky_golay;
 mod score;
@@ -70,6 +72,7 @@ pub struct Monitor {
     bounds: bounds::BoundWatch,
     bound_clearance: bound_clearance::BoundClearanceWatch,
     path_clearance: path_clearance::PathClearanceWatch,
+    blocks: blocks::BlockWatch,
     labels: labels::LabelWatch,
     pull_over: pull_over::PullOverWatch,
     tracking: tracking::TrackingWatch,
@@ -96,6 +99,7 @@ impl Monitor {
             bounds: bounds::BoundWatch::default(),
             bound_clearance: bound_clearance::BoundClearanceWatch::default(),
             path_clearance: path_clearance::PathClearanceWatch::default(),
+            blocks: blocks::BlockWatch::default(),
             labels: labels::LabelWatch::default(),
             pull_over: pull_over::PullOverWatch::default(),
             tracking: tracking::TrackingWatch::default(),
@@ -139,6 +143,7 @@ impl Monitor {
             let standing = self.silhouettes.of(frame, line);
             self.bound_clearance
                 .tick(frame, plan, &standing, vehicle.half_width());
+            self.blocks.tick(frame, plan, &standing, vehicle);
         }
         self.path_clearance.tick(frame, decision, vehicle);
     }
@@ -209,6 +214,7 @@ impl Monitor {
         measures.extend(self.bounds.measures());
         measures.extend(self.bound_clearance.measures());
         measures.extend(self.path_clearance.measures());
+        measures.extend(self.blocks.measures());
         measures.extend(self.labels.measures());
         measures.extend(self.pull_over.measures(&self.scenario));
         measures.extend(self.tracking.measures());
