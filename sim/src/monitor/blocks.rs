@@ -2,7 +2,8 @@
 //! whom.
 //!
 //! The answer is the reference search's, over the standing obstacles of the frame. Asked when the decider's answer
-//! changes, and once a second.
+//! changes, and once a second. A block that is missed fails the run: an open bound that is right holds a way for the
+//! bare car itself. The other two are reported: boxes around askew cars close ways that their outlines leave.
 
 use super::measure::{Extreme, Measure};
 use super::plan::Plan;
@@ -113,7 +114,7 @@ impl BlockWatch {
         let share = (self.named > 0).then(|| f64::from(self.right) / f64::from(self.named));
         let correct = self.wrong.measure("blocker_id_correct").value(share);
         vec![
-            self.missed.measure("missed_block").at_most(0.0),
+            self.missed.measure("missed_block").at_most(0.0).gate(),
             self.false_blocks.measure("false_block").at_most(0.0),
             correct.at_least(1.0),
         ]
