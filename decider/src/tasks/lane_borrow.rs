@@ -73,6 +73,12 @@ pub fn decide(scene: &Scene, state: &mut BorrowState) -> Vec<Borrow> {
     state.sides.clone()
 }
 
+/// Whether a neighbouring lane may be borrowed here at all, if not now.
+pub fn is_permitted(scene: &Scene) -> bool {
+    let has_neighbour = scene.line.sample_at(scene.ego.s).neighbours.iter().any(Option::is_some);
+    scene.config.lane_borrow.allow_lane_borrowing && has_neighbour && !crossable_sides(scene).is_empty()
+}
+
 /// Takes note of whether the own lane alone would have done; `None`: that was not looked at.
 pub fn observe(state: &mut BorrowState, own_lane_is_blocked: Option<bool>) {
     match own_lane_is_blocked {

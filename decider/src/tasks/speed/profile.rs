@@ -2,7 +2,7 @@
 
 use super::limits::Envelope;
 use super::overlap::Claim;
-use super::rules::{self, BRAKE_LATE};
+use super::rules::{self, BRAKE_LATE, Motion};
 use super::{Planned, SpeedConfig};
 use crate::decision::{PathPoint, Stop, StopCause, TrajectoryPoint};
 use crate::frame::ObstacleId;
@@ -38,6 +38,15 @@ struct State {
     distance: f64,
     v: f64,
     a: f64,
+}
+
+impl State {
+    fn motion(&self) -> Motion {
+        Motion {
+            v: self.v,
+            a: self.a,
+        }
+    }
 }
 
 /// How a claim is dealt with.
@@ -153,7 +162,7 @@ impl Planner<'_> {
         };
         rules::stop(
             self.config,
-            state.v,
+            state.motion(),
             self.stop.distance - state.distance,
             patience,
             RESTART,
@@ -171,7 +180,13 @@ impl Planner<'_> {
             }),
             Response::Yield => fence(claim, state).map_or(free, |fence| {
                 let gap = fence - self.config.follow_distance - state.distance;
-                rules::stop(self.config, state.v, gap, BRAKE_LATE, RESTART_IN_TRAFFIC)
+                rules::stop(
+                    self.config,
+                    state.motion(),
+                    gap,
+                    BRAKE_LATE,
+                    RESTART_IN_TRAFFIC,
+                )
             }),
         }
     }
