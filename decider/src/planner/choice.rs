@@ -100,11 +100,12 @@ fn find_path(
     context: &Context,
 ) -> Result<Path, Rejection> {
     let goal = goal(scene, context, bound.label);
-    let new = path::plan(scene, table, bound, goal);
+    let last = context.path.as_ref().filter(|last| last.label == bound.label);
+    let on = last.filter(|last| path::is_on(scene, &last.points));
+    let new = path::plan(scene, table, bound, goal, on.map(|last| &last.points[..]));
     if new.as_ref().is_ok_and(|path| path.serves(goal)) {
         return new;
     }
-    let last = context.path.as_ref().filter(|last| last.label == bound.label);
     let old = last.and_then(|last| path::reuse(scene, &last.points));
     match old
         .map(|path| path::finish(path, bound))

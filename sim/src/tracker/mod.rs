@@ -22,6 +22,12 @@ use foot::{Foot, Moment};
 /// Below this speed a trajectory means to stand, m/s.
 const STANDING: f64 = 0.05;
 
+/// Braking of the last centimetres, m/s²: what the wheels lose at once when they stand.
+const SETTLING: f64 = 0.3;
+
+/// Slower than this the wheels stand, m/s.
+const AT_REST: f64 = 1e-3;
+
 /// How far ahead a trajectory must stay at rest for the brakes to be held, s.
 const HOLD_PREVIEW: f64 = 0.5;
 
@@ -67,7 +73,11 @@ impl Tracker {
         if stands(trajectory, last, now, time_since_frame) && ego.v.abs() <= STANDING {
             return Controls {
                 steer: ego.steer,
-                acceleration: -self.config.hold_brake,
+                acceleration: if ego.v.abs() <= AT_REST {
+                    -self.config.hold_brake
+                } else {
+                    -SETTLING
+                },
             };
         }
         let foot = Foot::of(trajectory, ego.pose, now.index);

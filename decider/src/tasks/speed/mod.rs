@@ -148,10 +148,7 @@ fn before_blocker(scene: &Scene, path: &Path, id: ObstacleId, may_pull_out: bool
     } else {
         config.stop_distance
     };
-    let comfortable = rules::stopping_distance(scene.start.v, config.braking);
-    let least = contact - config.least_stop_distance;
-    (contact - gap)
-        .max(comfortable.min(least))
+    rules::stop_before(config, scene.start.v, contact, gap)
         .min(path.length())
         .max(0.0)
 }

@@ -42,10 +42,7 @@ struct State {
 
 impl State {
     fn motion(&self) -> Motion {
-        Motion {
-            v: self.v,
-            a: self.a,
-        }
+        Motion { v: self.v, a: self.a }
     }
 }
 
@@ -179,14 +176,9 @@ impl Planner<'_> {
                 rules::follow(self.config, state.v, claim.s_dot, gap, self.scene.cruise_speed)
             }),
             Response::Yield => fence(claim, state).map_or(free, |fence| {
-                let gap = fence - self.config.follow_distance - state.distance;
-                rules::stop(
-                    self.config,
-                    state.motion(),
-                    gap,
-                    BRAKE_LATE,
-                    RESTART_IN_TRAFFIC,
-                )
+                let ahead = fence - state.distance;
+                let gap = rules::stop_before(self.config, state.v, ahead, self.config.follow_distance);
+                rules::stop(self.config, state.motion(), gap, BRAKE_LATE, RESTART_IN_TRAFFIC)
             }),
         }
     }
@@ -204,7 +196,8 @@ impl Planner<'_> {
         } else {
             config.jerk
         };
-        let mut a = wanted.clamp(state.a - jerk * STEP, state.a + jerk * STEP);
+        let release = jerk.max(rules::release(state.a));
+        let mut a = wanted.clamp(state.a - jerk * STEP, state.a + release * STEP);
         let mut v = state.v + a * STEP;
         if v < STANDSTILL && a <= 0.0 {
             v = 0.0;

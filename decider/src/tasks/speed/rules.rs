@@ -79,6 +79,18 @@ pub(super) fn stop(config: &SpeedConfig, now: Motion, gap: f64, patience: f64, r
     }
 }
 
+/// How fast braking may be let go, m/s³: as fast as the eased stop asks for, with as much again to catch up.
+pub(super) fn release(a: f64) -> f64 {
+    -2.0 * a / EASE_TIME
+}
+
+/// Where to stop before something that is `contact` metres ahead: `wanted` metres short of it where that can be done
+/// in comfort, else with what is left, but never less than the least distance.
+pub(super) fn stop_before(config: &SpeedConfig, v: f64, contact: f64, wanted: f64) -> f64 {
+    let comfortable = stopping_distance(v, config.braking);
+    (contact - wanted).max(comfortable.min(contact - config.least_stop_distance))
+}
+
 /// Braking of the eased stop from `v` in `gap` metres, m/s², positive.
 fn eased_braking(v: f64, gap: f64) -> f64 {
     let gap = gap.max(OVERSHOT);
@@ -161,7 +173,11 @@ mod tests {
         for _ in 0..10_000 {
             let wanted = stop(&CONFIG(), now, gap - drive.distance, BRAKE_LATE, 0.3);
             let wanted = wanted.min(cruise(&CONFIG(), now.v, v));
-            let jerk = if wanted < -CONFIG().hard_braking { 20.0 } else { 3.0 };
+            let jerk = if wanted < -CONFIG().hard_braking {
+                20.0
+            } else {
+                3.0
+            };
             now.a = wanted.clamp(now.a - jerk * DT, now.a + jerk * DT);
             let next = (now.v + now.a * DT).max(0.0);
             drive.distance += f64::midpoint(now.v, next) * DT;
@@ -215,7 +231,10 @@ mod tests {
         for gap in [0.05, 0.2, 0.5, 3.0, 40.0] {
             let (v, along) = eased_approach(gap, 1.5);
             assert!((eased_braking(v, gap) - along).abs() < 1e-9, "{gap} m before it");
-            assert!((stopping_distance(v, 1.5) - gap).abs() < 1e-9, "{gap} m before it");
+            assert!(
+                (stopping_distance(v, 1.5) - gap).abs() < 1e-9,
+                "{gap} m before it"
+            );
         }
     }
 
@@ -224,8 +243,14 @@ mod tests {
         let rolling = |v| Motion { v, a: -0.2 };
         assert!(stop(&CONFIG(), rolling(0.0), 0.2, BRAKE_LATE, 0.3).abs() < 1e-12);
         assert!(stop(&CONFIG(), rolling(0.0), 5.0, BRAKE_LATE, 0.3) > 0.5);
-        assert!(stop(&CONFIG(), rolling(0.3), 1.4, BRAKE_LATE, 1.5) < -0.1, "it stops where it is");
-        assert!(stop(&CONFIG(), rolling(1.0), 1.4, BRAKE_LATE, 1.5) <= 0.0, "it does not speed up");
+        assert!(
+            stop(&CONFIG(), rolling(0.3), 1.4, BRAKE_LATE, 1.5) < -0.1,
+            "it stops where it is"
+        );
+        assert!(
+            stop(&CONFIG(), rolling(1.0), 1.4, BRAKE_LATE, 1.5) <= 0.0,
+            "it does not speed up"
+        );
     }
 
     #[test]
