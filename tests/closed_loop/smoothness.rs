@@ -112,7 +112,10 @@ fn behind_a_standing_leader_it_stands() {
     }
 }
 
-/// The farthest that two paths lie apart at the same station, m, and where.
+/// How far ahead a path is about to be driven, m: farther on, what comes into view may still change it.
+const SOON: f64 = 30.0;
+
+/// The farthest that two paths lie apart at the same station of the next metres, m, and where.
 fn jump(before: &[PathPoint], after: &[PathPoint]) -> (f64, f64) {
     let offset = |point: &PathPoint| {
         let above = before.partition_point(|p| p.s <= point.s);
@@ -121,6 +124,7 @@ fn jump(before: &[PathPoint], after: &[PathPoint]) -> (f64, f64) {
     };
     after
         .iter()
+        .take_while(|point| point.distance < SOON)
         .filter_map(|point| Some(((offset(point)? - point.l).abs(), point.s)))
         .fold(
             (0.0, 0.0),
