@@ -64,9 +64,8 @@ impl EndingWatch {
             .sample(is_in_target_lane(sample), sample.time());
         let standing = self.standing.sample(sample.ego().v.abs() < STANDS, sample.time());
         let expect = sample.scenario.expect;
-        let is_blocked = || {
-            progress.made() >= APPROACHED && gap_ahead(sample).is_some_and(|gap| is_within(gap, BLOCKER_GAP))
-        };
+        let is_blocked =
+            || progress.made() >= APPROACHED && gaps_ahead(sample).any(|gap| is_within(gap, BLOCKER_GAP));
         let ending = if progress.is_at_goal() {
             Ending::GoalReached
         } else if pull_over.is_done() {
@@ -145,12 +144,13 @@ fn is_in_target_lane(sample: &Sample) -> bool {
     at.l.abs() <= LANE_OFFSET && off.abs() <= LANE_HEADING
 }
 
-/// Distance from the front bumper to the nearest obstacle in the strip that the ego needs to go on straight, m.
-fn gap_ahead(sample: &Sample) -> Option<f64> {
+/// Distances from the front bumper to the obstacles in the strip that the ego needs to go on straight, m. One that could be
+/// passed may stand before the one that blocks.
+fn gaps_ahead<'a>(sample: &'a Sample) -> impl Iterator<Item = f64> + 'a {
     let vehicle = &sample.scenario.vehicle;
     let reach = vehicle.half_width() + PASSING_BUFFER;
     let pose = sample.ego().pose;
-    let ahead = |outline: &ConvexPolygon| {
+    let ahead = move |outline: &ConvexPolygon| {
         let local = |v: Vec2| pose.to_local(v);
         let parts = outline
             .edges()
@@ -162,8 +162,7 @@ fn gap_ahead(sample: &Sample) -> Option<f64> {
         .scenario
         .obstacles
         .iter()
-        .filter_map(|o| ahead(&sample.outline(o.id)?))
-        .reduce(f64::min)
+        .filter_map(move |o| ahead(&sample.outline(o.id)?))
 }
 
 /// The least `x` of the part of a segment that lies within `reach` of the `x` axis. A long wall that comes into the
