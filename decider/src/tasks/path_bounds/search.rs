@@ -18,7 +18,7 @@ const EXTRA_WIDTH_COEFF: f64 = 0.25;
 const JUNCTION_RADIUS: f64 = 1.0;
 
 /// Share of the tightest turn that turning in to a place may take.
-const TURN_IN_SHARE: f64 = 0.6;
+const TURN_IN_SHARE: f64 = 0.55;
 
 /// How far before its place a car stands straight, m.
 const STRAIGHTEN: f64 = 2.0;
