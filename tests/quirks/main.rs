@@ -80,14 +80,6 @@ fn greedy_sides_stop_before_an_open_way() {
     );
 }
 
-/// The bound leads so near to the cones that no path in it clears them: the car stands before an open way.
-#[test]
-fn obstacles_without_a_buffer_are_not_passed() {
-    let fault = ["decider.path_bounds.obstacle_lat_buffer=0"];
-    caught("two_cones", 5..=9, &fault, 1);
-    caught("cone_gate", 3..=7, &fault, 1);
-}
-
 /// Where the road leaves room they are passed, and touched by the bound: the car is let as near as it fits.
 #[test]
 fn a_bound_without_a_buffer_touches_what_it_passes() {
@@ -118,11 +110,10 @@ fn a_bound_padded_through_its_blocker_is_wrong_by_itself() {
     }
 }
 
-/// Turning between two bollards, the side of the body passes over one that no corner meets.
+/// Rare, because a bound that knows the obstacles leaves little to check: one gate of a thousand runs of the catalog.
 #[test]
-fn a_path_checked_at_its_corners_leads_over_a_bollard() {
-    let failed = caught("bollards_askew", 1..=12, &[CORNERS], 6);
-    assert!(failing(&failed, "path_obstacle_clearance") >= 6);
+fn a_path_checked_at_its_corners_gets_stuck_between_cones() {
+    caught("cone_gate", 15..=15, &[CORNERS], 1);
 }
 
 /// Too near to the bollard for any bound that knows it, the fallback leads on.
@@ -140,18 +131,9 @@ fn a_bollard_between_the_corners_is_run_over() {
     assert!(collisions(&failed) >= 3);
 }
 
-/// Rare: of a hundred hard braking leaders, these.
-#[test]
-fn no_distance_to_the_leader_is_too_little() {
-    let fault = ["decider.speed.follow_time=0", "decider.speed.follow_distance=0"];
-    let seeds = [3, 42, 48, 54, 56];
-    assert!(failures("hard_braking_leader", seeds, &[]).is_empty());
-    assert!(collisions(&failures("hard_braking_leader", seeds, &fault)) >= 2);
-}
-
 #[test]
 fn the_original_with_all_its_defects_is_caught() {
-    let failed = caught("bollard_between_walls", 1..=6, &["profile=apollo"], 4);
-    assert!(collisions(&failed) >= 3);
+    let failed = caught("bollard_between_walls", 1..=6, &["profile=apollo"], 6);
+    assert!(failing(&failed, "bound_obstacle_clearance") >= 6);
     caught("cone_gate", 1..=7, &["profile=apollo"], 3);
 }

@@ -10,8 +10,15 @@ use crate::frame::Frame;
 use crate::geometry::{Pose, Vec2, angle};
 use crate::reference_line::LineQuery;
 
-/// Larger errors across the trajectory start a new one, m. The original: 0.5.
+/// Larger errors across the trajectory start a new one, m. The original: 0.5, at any speed.
 const LATERAL_TOLERANCE: f64 = 0.5;
+
+/// The same for a car that manoeuvres: with less room than that to what stands beside it, planning from where it is
+/// not would plan through it.
+const MANOEUVRING_TOLERANCE: f64 = 0.1;
+
+/// Below this speed a car manoeuvres, m/s.
+const MANOEUVRING: f64 = 3.0;
 
 /// Larger errors along the trajectory start a new one, m. The original: 2.5, at which a car that has
 /// overshot its stop line would be planned for as if it had not.
@@ -52,7 +59,12 @@ pub fn start_point(frame: &Frame, last: Option<&LastTrajectory>) -> StartPoint {
 fn stitched(frame: &Frame, last: &LastTrajectory) -> Option<StartPoint> {
     let point = at_time(&last.points, frame.time - last.time)?;
     let error: Vec2 = point.pose.to_local(frame.ego.pose.position());
-    let near = error.x.abs() <= LONGITUDINAL_TOLERANCE && error.y.abs() <= LATERAL_TOLERANCE;
+    let across = if frame.ego.v < MANOEUVRING {
+        MANOEUVRING_TOLERANCE
+    } else {
+        LATERAL_TOLERANCE
+    };
+    let near = error.x.abs() <= LONGITUDINAL_TOLERANCE && error.y.abs() <= across;
     near.then_some(StartPoint {
         pose: point.pose,
         kappa: point.kappa,

@@ -11,6 +11,10 @@ use corridor_decider::frame::Frame;
 use corridor_decider::reference_line::LineQuery;
 use corridor_decider::tasks::path_bounds::{BoundPoint, Label};
 
+/// Least room that a bound has to leave, m: the tracking tolerance, by which a car may be beside its path. With a
+/// limit of 0 rounding would decide about a decider that keeps no buffer.
+const LEAST_ROOM: f64 = 0.1;
+
 /// Watches the driven bounds.
 #[derive(Clone, Debug, Default)]
 pub(super) struct BoundClearanceWatch {
@@ -31,7 +35,7 @@ impl BoundClearanceWatch {
         vec![
             self.least
                 .measure("bound_obstacle_clearance")
-                .at_least(0.0)
+                .at_least(LEAST_ROOM)
                 .gate(),
         ]
     }

@@ -6,7 +6,7 @@
 use super::Path;
 use super::corridor::Corridor;
 use super::profile::Profile;
-use super::table::{LineTable, Row};
+use super::table::{LineTable, Row, STEP};
 use crate::decision::{PathPoint, Rejection};
 use crate::frame::ObstacleId;
 use crate::geometry::{ConvexPolygon, Pose, Vec2, angle};
@@ -17,9 +17,6 @@ const UNCHECKED_TAIL: f64 = 10.5;
 
 /// How far a corner may stand over the road's edge, m: half of what counts as off the road.
 const ROAD_TOLERANCE: f64 = 0.15;
-
-/// Least factor `1 − κ l` that is divided by.
-const LEAST_STRETCH: f64 = 0.1;
 
 /// Curvature above the limit that a path may start with, 1/m: what the car does now it does.
 const START_EXCESS: f64 = 0.02;
@@ -57,28 +54,43 @@ pub(super) fn assess(
         }
         points.truncate(k);
     }
-    if leaves_road(scene, table, profile) {
+    if leaves_road(scene, table, &points) {
         return Err(Rejection::LeavesRoad);
     }
     until_contact(scene, points)
 }
 
-/// Whether a corner of the body leaves the road surface where it has not been off it from the start.
-fn leaves_road(scene: &Scene, table: &LineTable, profile: &Profile) -> bool {
+/// Whether a corner of the body leaves the road surface where it has not been off it from the start. Front and rear
+/// are held against the road where they are: in a tight bend that is not beside the rear axle.
+fn leaves_road(scene: &Scene, table: &LineTable, points: &[PathPoint]) -> bool {
     let vehicle = scene.vehicle;
-    let overhang = |(row, l): (&Row, &[f64; 4])| {
-        let slope = l[1] / (1.0 - row.kappa * l[0]).max(LEAST_STRETCH);
-        let front = l[0] + slope * vehicle.front_edge_to_center;
-        let rear = l[0] - slope * vehicle.back_edge_to_center;
-        let (left, right) = (
-            front.max(rear) + vehicle.half_width(),
-            front.min(rear) - vehicle.half_width(),
-        );
-        (left - row.road.0).max(-right - row.road.1)
+    let beyond = |row: &Row, at: Vec2| {
+        let l = row.forward.x * (at.y - row.position.y) - row.forward.y * (at.x - row.position.x);
+        (l + vehicle.half_width() - row.road.0).max(vehicle.half_width() - l - row.road.1)
     };
-    let mut overhangs = table.rows.iter().zip(&profile.l).map(overhang);
+    let row = |k: usize| &table.rows[k.min(table.rows.len() - 1)];
+    let overhang = |(k, point): (usize, &PathPoint)| {
+        let front = point.pose.advanced(vehicle.front_edge_to_center).position();
+        let rear = point.pose.advanced(-vehicle.back_edge_to_center).position();
+        beyond(row(k + rows_in(vehicle.front_edge_to_center)), front).max(beyond(
+            row(k.saturating_sub(rows_in(vehicle.back_edge_to_center))),
+            rear,
+        ))
+    };
+    let mut overhangs = points.iter().enumerate().map(overhang);
     let allowed = overhangs.next().unwrap_or(0.0).max(0.0) + ROAD_TOLERANCE;
     overhangs.any(|overhang| overhang > allowed)
+}
+
+/// How many rows of the table a length takes.
+fn rows_in(length: f64) -> usize {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a few metres, not negative"
+    )]
+    let count = (length / STEP).round() as usize;
+    count
 }
 
 /// A path as far as the body touches nothing.
