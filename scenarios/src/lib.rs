@@ -15,6 +15,7 @@ pub mod error;
 mod expectation;
 mod family;
 pub mod import;
+mod map_format;
 mod map_source;
 pub mod maps;
 pub mod random;

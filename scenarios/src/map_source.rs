@@ -1,7 +1,7 @@
 //! Finds and reads the map that a scenario names, once for all its seeds.
 
 use crate::error::{Place, ScenarioError};
-use crate::import::opendrive;
+use crate::map_format;
 use crate::maps;
 use corridor_decider::road::RoadMap;
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ const MAPS_VARIABLE: &str = "CORRIDOR_MAPS";
 pub struct LoadedMap {
     /// The map.
     pub map: Arc<RoadMap>,
-    /// The text of its file.
+    /// The content of its file; a binary one in hexadecimal.
     pub text: Arc<str>,
     /// What the reader had to leave out or repair.
     pub warnings: Arc<[String]>,
@@ -83,14 +83,15 @@ impl MapCache {
             if let Some(found) = self.lock().get(&key) {
                 return Ok(found.clone());
             }
-            let text = std::fs::read_to_string(&path)
+            let bytes = std::fs::read(&path)
                 .map_err(|e| not_found(format!("cannot read `{}`: {e}", path.display())))?;
-            (key, text.into())
+            (key, map_format::as_text(&bytes).into())
         } else {
             let text = maps::embedded(name).ok_or_else(|| {
                 not_found(format!(
-                    "expected one of {} or a path ending in `.xodr`",
-                    own_maps()
+                    "expected one of {} or a path ending in {}",
+                    own_maps(),
+                    endings()
                 ))
             })?;
             (name.to_owned(), text.into())
@@ -111,11 +112,11 @@ impl MapCache {
 }
 
 fn read(text: Arc<str>) -> Result<LoadedMap, String> {
-    let import = opendrive::read(&text).map_err(|e| e.to_string())?;
+    let (map, warnings) = map_format::read(&text).map_err(|e| e.to_string())?;
     Ok(LoadedMap {
-        map: Arc::new(import.map),
+        map: Arc::new(map),
         text,
-        warnings: import.warnings.into(),
+        warnings: warnings.into(),
     })
 }
 
@@ -125,11 +126,19 @@ fn own_maps() -> String {
     names.join(", ")
 }
 
+/// The endings of map files, for a message.
+fn endings() -> String {
+    let endings = map_format::ENDINGS.map(|ending| format!("`.{ending}`"));
+    endings.join(", ")
+}
+
 fn is_path(name: &str) -> bool {
     name.contains(['/', '\\'])
-        || Path::new(name)
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("xodr"))
+        || Path::new(name).extension().is_some_and(|e| {
+            map_format::ENDINGS
+                .iter()
+                .any(|known| e.eq_ignore_ascii_case(known))
+        })
 }
 
 /// The path that a map name means, or where it was looked for in vain.

@@ -4,5 +4,6 @@
 //! beside the workspace in `../shared/maps`. Without them the tests say so and pass, unless
 //! `CORRIDOR_REQUIRE_MAPS` is set.
 
+mod apollo;
 mod opendrive;
 mod support;

@@ -8,6 +8,9 @@ use crate::import::{ImportError, TextPlace};
 /// times as much.
 const MAX_RECORD: usize = 4 << 20;
 
+/// How every error of the decoder begins.
+pub(super) const NOISE: &str = "failed to decode Protobuf message: ";
+
 /// A field of the outermost level.
 #[derive(Debug)]
 pub(super) enum Record<'a> {
@@ -25,13 +28,7 @@ impl Record<'_> {
                 let problem = format!("has {} bytes", bytes.len());
                 Err(Fault::new(problem, format!("at most {MAX_RECORD}")).into())
             }
-            Self::Wire(bytes) => M::decode(*bytes).map_err(|error| {
-                Fault::new(
-                    format!("cannot be decoded: {error}"),
-                    "a message of Apollo's HD map",
-                )
-                .into()
-            }),
+            Self::Wire(bytes) => M::decode(*bytes).map_err(|error| undecodable(&error).into()),
             Self::Text { text, field } => {
                 M::read(field, &[]).map_err(|error| Mistake::Error(error.into_error(text)))
             }
@@ -72,4 +69,24 @@ impl From<Fault> for Mistake {
     fn from(fault: Fault) -> Self {
         Self::Fault(fault)
     }
+}
+
+/// What the decoder says, which names the fields on its way from the inside out, as `Message.field: `.
+fn undecodable(error: &prost::DecodeError) -> Fault {
+    let text = error.to_string();
+    let mut rest = text.strip_prefix(NOISE).unwrap_or(&text);
+    let mut path = Vec::new();
+    while let Some((place, inner)) = rest.split_once(": ") {
+        let Some((_, field)) = place.split_once('.').filter(|_| !place.contains(' ')) else {
+            break;
+        };
+        path.insert(0, field.trim_start_matches("r#"));
+        rest = inner;
+    }
+    let at = if path.is_empty() {
+        String::new()
+    } else {
+        format!(" at `{}`", path.join("."))
+    };
+    Fault::new(format!("cannot be decoded{at}: {rest}"), "a message of Apollo's")
 }

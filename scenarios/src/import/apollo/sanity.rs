@@ -24,9 +24,8 @@ pub(super) fn check(map: &MapData) -> Result<(), Fault> {
             return Err(fault).inside("id").inside_nth("lane", nth);
         }
     }
-    let mut links = map.lanes.iter().flat_map(links).peekable();
     let (mut count, mut unknown, mut first) = (0_usize, 0_usize, None);
-    while let Some(link) = links.next() {
+    for link in map.lanes.iter().flat_map(links) {
         count += 1;
         if !known.contains(link) {
             unknown += 1;

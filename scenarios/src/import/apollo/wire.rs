@@ -3,6 +3,7 @@
 //! Records are handed out before they are decoded, so that no file is in memory twice as a whole and a damaged one is
 //! told by the record where it is.
 
+use super::record::NOISE;
 use prost::encoding::{DecodeContext, WireType, decode_key, decode_varint, skip_field};
 
 /// Walks over the fields of the outermost message.
@@ -27,7 +28,10 @@ impl<'a> Records<'a> {
     /// The next length-delimited field: its number and its bytes. Others are skipped.
     pub(super) fn next_record(&mut self) -> Result<Option<(u32, &'a [u8])>, NoField> {
         let at = self.bytes.len() - self.rest.len();
-        let no_field = |problem: String| NoField { at, problem };
+        let no_field = |problem: String| NoField {
+            at,
+            problem: problem.replace(NOISE, ""),
+        };
         while !self.rest.is_empty() {
             let (number, kind) = decode_key(&mut self.rest).map_err(|e| no_field(e.to_string()))?;
             if kind != WireType::LengthDelimited {

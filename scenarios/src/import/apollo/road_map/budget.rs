@@ -9,8 +9,8 @@ const LIMIT: f64 = 5e6;
 /// that grows with the square of its reach.
 const CELL: f64 = 8.0;
 
-/// What holding a cross-section against one piece of a polyline costs: a few multiplications.
-const COMPARISON: f64 = 1e-3;
+/// What holding a cross-section against one piece of a polyline costs: some multiplications.
+const COMPARISON: f64 = 0.02;
 
 /// What has been spent.
 #[derive(Debug, Default)]
@@ -19,9 +19,14 @@ pub(super) struct Budget {
 }
 
 impl Budget {
-    /// Accounts for `count` cross-sections of a lane, each `reach` wide or long.
-    pub(super) fn cross_sections(&mut self, count: f64, reach: f64, lane: &str) -> Result<(), ImportError> {
-        self.spend(count * (1.0 + (reach / CELL) * (reach / CELL)), lane)
+    /// Accounts for `count` cross-sections of a lane that are about to be made.
+    pub(super) fn cross_sections(&mut self, count: f64, lane: &str) -> Result<(), ImportError> {
+        self.spend(count, lane)
+    }
+
+    /// Accounts for a stretch of lane whose farthest corners are `reach` apart.
+    pub(super) fn stretch(&mut self, reach: f64, lane: &str) -> Result<(), ImportError> {
+        self.spend((reach / CELL) * (reach / CELL), lane)
     }
 
     /// Accounts for `count` comparisons of a cross-section with a piece of a polyline.

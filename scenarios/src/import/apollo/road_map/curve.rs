@@ -26,6 +26,22 @@ pub(super) struct Knots {
     stations: Vec<f64>,
 }
 
+/// Sums over a group of points.
+#[derive(Default)]
+struct Mean {
+    position: Vec2,
+    station: f64,
+    count: f64,
+}
+
+impl Mean {
+    fn add(&mut self, position: Vec2, station: f64) {
+        self.position += position;
+        self.station += station;
+        self.count += 1.0;
+    }
+}
+
 impl Knots {
     /// The knots of a polyline: both ends as they are, averages between.
     pub(super) fn new(points: &[Vec2]) -> Self {
@@ -33,24 +49,29 @@ impl Knots {
             positions: vec![points[0]],
             stations: vec![0.0],
         };
-        let (mut sum, mut sum_s, mut count, mut began) = (Vec2::zeros(), 0.0, 0.0, 0.0);
-        let mut s = 0.0;
-        for k in 1..points.len() {
-            s += (points[k] - points[k - 1]).norm();
-            let last = k + 1 == points.len();
-            if count > 0.0 && (last || s - began > AVERAGED) {
-                knots.push(points[0] + sum / count, sum_s / count);
-                (sum, sum_s, count) = (Vec2::zeros(), 0.0, 0.0);
+        let length: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+        // Equal groups, so that none is left over at the end with a point too few.
+        let group = length / (length / AVERAGED).round().max(1.0);
+        let (mut s, mut mean, mut end) = (0.0, Mean::default(), group);
+        for pair in points[..points.len() - 1].windows(2) {
+            s += (pair[1] - pair[0]).norm();
+            if s > end {
+                knots.close(&mut mean, points[0]);
+                end = (s / group).ceil() * group;
             }
-            if count == 0.0 {
-                began = s;
-            }
-            sum += points[k] - points[0];
-            sum_s += s;
-            count += 1.0;
+            mean.add(pair[1] - points[0], s);
         }
-        knots.finish(points[points.len() - 1], s);
+        knots.close(&mut mean, points[0]);
+        knots.finish(points[points.len() - 1], length);
         knots
+    }
+
+    /// Makes a group of points a knot, unless it is empty.
+    fn close(&mut self, mean: &mut Mean, origin: Vec2) {
+        if mean.count > 0.0 {
+            self.push(origin + mean.position / mean.count, mean.station / mean.count);
+        }
+        *mean = Mean::default();
     }
 
     fn push(&mut self, position: Vec2, station: f64) {
@@ -182,6 +203,13 @@ pub(super) struct Curve {
     pub(super) pieces: Vec<Piece>,
 }
 
+impl Curve {
+    /// Length of the polyline that it follows, m.
+    pub(super) fn drawn_length(&self) -> f64 {
+        self.pieces.last().map_or(0.0, |piece| piece.end.station)
+    }
+}
+
 /// A stretch of a curve between two knots.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
@@ -190,8 +218,10 @@ pub(super) struct Piece {
     y: Quintic,
     /// Range of its parameter, about its length, m.
     pub(super) length: f64,
-    /// Stations of the polyline at its ends.
-    stations: [f64; 2],
+    /// Station of the polyline at its start.
+    station: f64,
+    /// The knot at its end, as given: a quintic holds still there.
+    end: CurvePoint,
     /// The sharper of the curvatures at its ends and between.
     pub(super) sharpest: f64,
 }
@@ -220,7 +250,13 @@ impl Piece {
             x: Quintic::between(x0, x1, length),
             y: Quintic::between(y0, y1, length),
             length,
-            stations,
+            station: stations[0],
+            end: CurvePoint {
+                position: ends[1],
+                theta: headings[1],
+                kappa: kappas[1],
+                station: stations[1],
+            },
             sharpest: 0.0,
         };
         let bends = [0.0, 0.25, 0.5, 0.75, 1.0].map(|t| piece.at(t).kappa.abs());
@@ -230,6 +266,9 @@ impl Piece {
 
     /// The place at a share of the piece, 0 to 1.
     pub(super) fn at(&self, share: f64) -> CurvePoint {
+        if share >= 1.0 {
+            return self.end;
+        }
         let p = share * self.length;
         let ([x, dx, ddx, _], [y, dy, ddy, _]) = (self.x.evaluate(p), self.y.evaluate(p));
         let speed = libm::hypot(dx, dy);
@@ -242,7 +281,7 @@ impl Piece {
             position: self.origin + Vec2::new(x, y),
             theta: libm::atan2(dy, dx),
             kappa,
-            station: self.stations[0] + share * (self.stations[1] - self.stations[0]),
+            station: self.station + share * (self.end.station - self.station),
         }
     }
 }

@@ -1,12 +1,10 @@
 //! Where the line across a lane meets a polyline beside it.
 
-use corridor_decider::geometry::{Vec2, angle, cross};
+use corridor_decider::geometry::{Vec2, cross};
 
-/// The offset, left positive, at which the line across the heading `theta` at `origin` meets the piece from `a` to
-/// `b`.
-pub(super) fn crossing(origin: Vec2, theta: f64, a: Vec2, b: Vec2) -> Option<f64> {
-    let (sin, cos) = angle::sin_cos(theta);
-    let heading = Vec2::new(cos, sin);
+/// The offset, left positive, at which the line across the unit vector `heading` at `origin` meets the piece from `a`
+/// to `b`.
+pub(super) fn crossing(origin: Vec2, heading: Vec2, a: Vec2, b: Vec2) -> Option<f64> {
     let (a, b) = (a - origin, b - origin);
     let (ahead_a, ahead_b) = (heading.dot(&a), heading.dot(&b));
     // Half open, so that a corner on the line counts once.

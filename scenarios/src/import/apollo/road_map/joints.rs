@@ -3,9 +3,10 @@
 use super::curve::Knots;
 use super::topology::Topology;
 use corridor_decider::geometry::angle;
+use std::f64::consts::FRAC_PI_4;
 
 /// Lanes that differ by more than this do not share a heading, rad.
-const MOST_TURN: f64 = 0.5;
+const MOST_TURN: f64 = FRAC_PI_4;
 
 /// The headings to impose on the start and the end of every lane.
 ///

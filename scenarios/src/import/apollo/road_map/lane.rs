@@ -33,30 +33,18 @@ pub(super) fn lane(
     }
     let widths = Widths::new(data, warnings);
     let mut points = Vec::new();
-    for (at, step) in places(data, curve, budget)? {
-        let own = [Side::Left, Side::Right].map(|side| widths.to_edge(side, &at));
-        let road = [&data.left_road_samples, &data.right_road_samples];
-        let [road_left, road_right] = [0, 1].map(|k| linear(road[k], at.station).unwrap_or(0.0).max(own[k]));
-        budget.cross_sections(1.0, own[0] + own[1] + step, &data.id)?;
+    // Stations of the file count to the length that it names.
+    let drawn = curve.drawn_length();
+    let named = if data.length > 0.0 { data.length } else { drawn };
+    for (mut at, step) in places(data, curve, budget)? {
+        at.station *= named / drawn;
+        let point = cross_section(data, &at, &widths);
+        budget.stretch(point.left + point.right + step, &data.id)?;
         budget.comparisons(widths.comparisons(), &data.id)?;
-        points.push(LanePoint {
-            s: 0.0,
-            x: at.position.x,
-            y: at.position.y,
-            theta: at.theta,
-            kappa: at.kappa,
-            left: own[0],
-            right: own[1],
-            road_left,
-            road_right,
-            speed_limit: data
-                .speed_limit
-                .filter(|limit| *limit > 0.0)
-                .unwrap_or(f64::INFINITY),
-        });
+        points.push(point);
     }
     measure(&mut points);
-    let scale = points[points.len() - 1].s / data.length.max(f64::MIN_POSITIVE);
+    let scale = points[points.len() - 1].s / named;
     Ok(Lane {
         name: data.id.clone(),
         kind,
@@ -71,6 +59,28 @@ pub(super) fn lane(
     })
 }
 
+/// The lane at a place; its station is filled in later.
+fn cross_section(data: &LaneData, at: &CurvePoint, widths: &Widths<'_>) -> LanePoint {
+    let [left, right] = [Side::Left, Side::Right].map(|side| widths.to_edge(side, at));
+    let to_road = |samples: &[(f64, f64)]| linear(samples, at.station).unwrap_or(0.0);
+    LanePoint {
+        s: 0.0,
+        x: at.position.x,
+        y: at.position.y,
+        theta: at.theta,
+        kappa: at.kappa,
+        left,
+        right,
+        road_left: to_road(&data.left_road_samples).max(left),
+        road_right: to_road(&data.right_road_samples).max(right),
+        // Bike lanes have a limit of 0, which is none.
+        speed_limit: data
+            .speed_limit
+            .filter(|limit| *limit > 0.0)
+            .unwrap_or(f64::INFINITY),
+    }
+}
+
 /// Places along a curve, each with the distance from the one before.
 fn places(
     data: &LaneData,
@@ -82,7 +92,7 @@ fn places(
         let step = (TURN / piece.sharpest).clamp(LEAST_SPACING, SPACING);
         let count = (piece.length / step).ceil().max(1.0);
         // Before they take any memory.
-        budget.cross_sections(count, 0.0, &data.id)?;
+        budget.cross_sections(count, &data.id)?;
         let mut k = 1.0;
         while k <= count {
             places.push((piece.at(k / count), piece.length / count));

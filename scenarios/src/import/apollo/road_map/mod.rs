@@ -15,7 +15,8 @@ mod widths;
 
 use crate::import::ImportError;
 use budget::Budget;
-use corridor_decider::hd_map::{HdLaneKind, MapData};
+use corridor_decider::geometry::Vec2;
+use corridor_decider::hd_map::{HdLaneKind, LaneData, MapData};
 use corridor_decider::road::{Lane, LaneKind, RoadMap};
 use curve::Knots;
 use std::collections::BTreeMap;
@@ -29,6 +30,7 @@ use warnings::Warnings;
 /// # Errors
 /// [`ImportError`] when a lane cannot be drawn, nothing is drivable, or the map is too large.
 pub fn to_road_map(map: &MapData) -> Result<(RoadMap, Vec<String>), ImportError> {
+    map.lanes.iter().try_for_each(drawable)?;
     let mut warnings = Warnings::default();
     let mut budget = Budget::default();
     let topology = Topology::new(map, &mut warnings);
@@ -46,6 +48,12 @@ pub fn to_road_map(map: &MapData) -> Result<(RoadMap, Vec<String>), ImportError>
         )?);
     }
     let junctions = topology.connect(map, &mut lanes, &mut warnings);
+    roads(map, &mut lanes, &mut budget)?;
+    Ok((RoadMap::new(lanes, junctions)?, warnings.into_lines()))
+}
+
+/// Tells the lanes which road they belong to, and how far its surface reaches.
+fn roads(map: &MapData, lanes: &mut [Lane], budget: &mut Budget) -> Result<(), ImportError> {
     let places: BTreeMap<&str, usize> = map
         .lanes
         .iter()
@@ -62,11 +70,26 @@ pub fn to_road_map(map: &MapData) -> Result<(RoadMap, Vec<String>), ImportError>
             for &member in &members {
                 lanes[member].road.clone_from(&road.id);
             }
-            surface::apply(&mut lanes, &members, &section.edges, &mut budget)?;
+            surface::apply(lanes, &members, &section.edges, budget)?;
         }
     }
-    surface::keep_off_others(&mut lanes, map, &places);
-    Ok((RoadMap::new(lanes, junctions)?, warnings.into_lines()))
+    surface::keep_off_others(lanes, map, &places);
+    Ok(())
+}
+
+/// Refuses lanes without two different points. A file has none, but the data may come from elsewhere.
+fn drawable(lane: &LaneData) -> Result<(), ImportError> {
+    let finite = |point: &Vec2| point.x.is_finite() && point.y.is_finite();
+    let moves = lane.points.windows(2).any(|pair| pair[0] != pair[1]);
+    if moves && lane.points.iter().all(finite) {
+        return Ok(());
+    }
+    Err(ImportError::Field {
+        place: None,
+        path: format!("lane `{}`", lane.id),
+        problem: "has no centre line".to_owned(),
+        expected: "at least two different finite points".to_owned(),
+    })
 }
 
 /// What a lane is for, in the road map's classes.

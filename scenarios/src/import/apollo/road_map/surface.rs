@@ -53,12 +53,11 @@ pub(super) fn apply(
                 .map(|point| outermost(point, side, &edges))
                 .collect();
             for (point, distance) in lane.points.iter_mut().zip(filled(&found)) {
-                match side {
-                    Side::Left => point.road_left = distance.map_or(point.road_left, |d| d.max(point.left)),
-                    Side::Right => {
-                        point.road_right = distance.map_or(point.road_right, |d| d.max(point.right))
-                    }
-                }
+                let (road, own) = match side {
+                    Side::Left => (&mut point.road_left, point.left),
+                    Side::Right => (&mut point.road_right, point.right),
+                };
+                *road = distance.map_or(*road, |distance| distance.max(own));
             }
         }
     }
@@ -87,20 +86,22 @@ fn drawn_on(points: &[Vec2]) -> Vec<Vec2> {
 
 /// How far the surface reaches from a point of a lane to one side, as far as the edges tell.
 fn outermost(point: &LanePoint, side: Side, edges: &[(EdgeKind, Vec<Vec2>)]) -> Option<f64> {
+    let (sin, cos) = angle::sin_cos(point.theta);
+    let heading = Vec2::new(cos, sin);
     let mut met: Vec<Met> = edges
         .iter()
         .flat_map(|(kind, points)| points.windows(2).map(|pair| (*kind, pair[0], pair[1])))
-        .filter_map(|piece| meet(point, side, piece))
+        .filter_map(|piece| meet(Vec2::new(point.x, point.y), heading, side, piece))
         .collect();
     met.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+    // How many carriageways the way outwards is in.
     let (mut depth, mut reach) = (1, None);
     for edge in met {
-        if reach.is_some_and(|reach| depth <= 0 && edge.distance - reach > STEP_OVER) {
+        if reach.is_some_and(|reach| depth == 0 && edge.distance - reach > STEP_OVER) {
             break;
         }
-        depth += if edge.ends { -1 } else { 1 };
-        if depth <= 0 {
-            depth = 0;
+        depth = if edge.ends { (depth - 1).max(0) } else { depth + 1 };
+        if depth == 0 {
             reach = Some(edge.distance);
         }
     }
@@ -108,14 +109,12 @@ fn outermost(point: &LanePoint, side: Side, edges: &[(EdgeKind, Vec<Vec2>)]) -> 
 }
 
 /// Where a piece of an edge is met on one side of a point, if it is.
-fn meet(point: &LanePoint, side: Side, (kind, a, b): (EdgeKind, Vec2, Vec2)) -> Option<Met> {
-    let l = crossing(Vec2::new(point.x, point.y), point.theta, a, b)?;
-    let distance = l * side.sign();
+fn meet(from: Vec2, heading: Vec2, side: Side, (kind, a, b): (EdgeKind, Vec2, Vec2)) -> Option<Met> {
+    let distance = crossing(from, heading, a, b)? * side.sign();
     if !(0.0..=FARTHEST).contains(&distance) {
         return None;
     }
-    let (sin, cos) = angle::sin_cos(point.theta);
-    let along = (b - a).dot(&Vec2::new(cos, sin)) >= 0.0;
+    let along = heading.dot(&(b - a)) >= 0.0;
     let ends = match kind {
         EdgeKind::Left => (side == Side::Left) == along,
         EdgeKind::Right => (side == Side::Right) == along,

@@ -141,6 +141,13 @@ fn neighbours(map: &MapData, lanes: &mut [Lane], warnings: &mut Warnings) {
                 ..kind
             }
         };
+        // Asked once per lane: a lane of very many wrong names may be named by very many lanes.
+        let names_one = |lane: &LaneData| {
+            lane.neighbours[back.index()]
+                .iter()
+                .any(|name| places.contains_key(name.as_str()))
+        };
+        let known: Vec<bool> = map.lanes.iter().map(names_one).collect();
         for (number, data) in map.lanes.iter().enumerate() {
             let named = data.neighbours[kind.index()]
                 .iter()
@@ -150,10 +157,7 @@ fn neighbours(map: &MapData, lanes: &mut [Lane], warnings: &mut Warnings) {
                 continue;
             };
             lanes[number].neighbours[kind.index()] = Some(id(other));
-            let known = map.lanes[other].neighbours[back.index()]
-                .iter()
-                .any(|name| places.contains_key(name.as_str()));
-            if !known && lanes[other].neighbours[back.index()].is_none() {
+            if !known[other] && lanes[other].neighbours[back.index()].is_none() {
                 lanes[other].neighbours[back.index()] = Some(id(number));
                 let what = "a neighbour that only one side names";
                 warnings.add(what, || {

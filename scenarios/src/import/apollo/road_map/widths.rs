@@ -3,7 +3,7 @@
 use super::curve::CurvePoint;
 use super::edges::crossing;
 use super::warnings::Warnings;
-use corridor_decider::geometry::Vec2;
+use corridor_decider::geometry::{Vec2, angle};
 use corridor_decider::hd_map::LaneData;
 use corridor_decider::road::Side;
 
@@ -54,9 +54,11 @@ impl<'a> Widths<'a> {
         match source {
             Source::Samples(samples) => linear(samples, at.station).unwrap_or(DEFAULT),
             Source::Edge(edge) => {
+                let (sin, cos) = angle::sin_cos(at.theta);
+                let heading = Vec2::new(cos, sin);
                 let offsets = edge
                     .windows(2)
-                    .filter_map(|pair| crossing(at.position, at.theta, pair[0], pair[1]));
+                    .filter_map(|pair| crossing(at.position, heading, pair[0], pair[1]));
                 let ahead = offsets.map(|l| l * side.sign()).filter(|l| *l >= 0.0);
                 let nearest = ahead.fold(f64::INFINITY, f64::min);
                 let nearest = if nearest.is_finite() {

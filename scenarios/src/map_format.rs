@@ -1,0 +1,126 @@
+//! Which reader a map belongs to, and how a binary map is kept as text.
+//!
+//! A trace holds its map as text and must find the reader again without a file's name, so the format is told by the
+//! content. Binary maps are kept in hexadecimal behind a first line that says so: twice the size, which compression
+//! takes back.
+
+use crate::import::{ImportError, apollo, opendrive};
+use corridor_decider::road::RoadMap;
+use std::fmt::Write as _;
+
+/// First line of a binary map kept as text.
+const BINARY: &str = "# a binary map in hexadecimal\n";
+
+/// Endings of the map files that can be read.
+pub(crate) const ENDINGS: [&str; 3] = ["xodr", "bin", "txt"];
+
+/// The content of a map file as text. Bytes of a text that are not UTF-8 (names in older encodings) are replaced.
+pub(crate) fn as_text(bytes: &[u8]) -> String {
+    if !is_binary(bytes) {
+        return String::from_utf8_lossy(bytes).into_owned();
+    }
+    let mut text = String::with_capacity(BINARY.len() + 2 * bytes.len());
+    text.push_str(BINARY);
+    for byte in bytes {
+        write!(text, "{byte:02x}").expect("a string takes everything");
+    }
+    text
+}
+
+/// Reads a map from the text that [`as_text`] gave.
+pub(crate) fn read(text: &str) -> Result<(RoadMap, Vec<String>), ImportError> {
+    if let Some(digits) = text.strip_prefix(BINARY) {
+        return apollo::to_road_map(&apollo::read_map(&from_hexadecimal(digits)?)?);
+    }
+    if is_apollo_text(text) {
+        return apollo::to_road_map(&apollo::read_map(text.as_bytes())?);
+    }
+    let import = opendrive::read(text)?;
+    Ok((import.map, import.warnings))
+}
+
+/// Messages are full of control characters, XML and the text form of messages have none but blanks.
+fn is_binary(bytes: &[u8]) -> bool {
+    let is_control = |byte: &u8| byte.is_ascii_control() && !byte.is_ascii_whitespace();
+    bytes.iter().any(is_control) && !contains(bytes, b"<?xml") && !contains(bytes, b"<OpenDRIVE")
+}
+
+fn contains(bytes: &[u8], what: &[u8]) -> bool {
+    bytes.windows(what.len()).any(|window| window == what)
+}
+
+/// Whether the first thing behind blanks and comments is the name of a field, and nothing looks like an XML map.
+fn is_apollo_text(text: &str) -> bool {
+    let mut lines = text.lines().map(str::trim_start);
+    let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
+    first.is_some_and(|line| line.starts_with(|c: char| c.is_ascii_lowercase()))
+        && !text.contains("<?xml")
+        && !text.contains("<OpenDRIVE")
+}
+
+fn from_hexadecimal(digits: &str) -> Result<Vec<u8>, ImportError> {
+    let digits = digits.trim_end().as_bytes();
+    let value = |digit: u8| {
+        char::from(digit)
+            .to_digit(16)
+            .and_then(|value| u8::try_from(value).ok())
+    };
+    let byte = |(at, pair): (usize, &[u8])| {
+        match *pair {
+            [high, low] => value(high).zip(value(low)).map(|(high, low)| 16 * high + low),
+            _ => None,
+        }
+        .ok_or_else(|| ImportError::Bytes {
+            at,
+            problem: "the binary map is damaged".to_owned(),
+            expected: "two hexadecimal digits".to_owned(),
+        })
+    };
+    digits.chunks(2).enumerate().map(byte).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn binary_maps_survive_being_text() {
+        let bytes: Vec<u8> = (0..=255).collect();
+        let text = as_text(&bytes);
+        assert_eq!(
+            from_hexadecimal(text.strip_prefix(BINARY).unwrap()).unwrap(),
+            bytes
+        );
+        for (damaged, at) in [("0", 0), ("00zz", 1), ("00-1", 1), ("00\u{e9}", 1)] {
+            let error = from_hexadecimal(damaged).unwrap_err().to_string();
+            assert!(
+                error.starts_with(&format!("byte {at}: the binary map is damaged")),
+                "{error}"
+            );
+        }
+    }
+
+    #[test]
+    fn texts_stay_as_they_are() {
+        for text in [
+            "<?xml version='1.0'?>\n<OpenDRIVE/>",
+            "# by hand\n\tlane { id { id: 'a' } }\r\n",
+        ] {
+            assert_eq!(as_text(text.as_bytes()), text);
+        }
+        assert_eq!(
+            as_text(b"<OpenDRIVE name='\xe9\x01'/>"),
+            "<OpenDRIVE name='\u{fffd}\u{1}'/>"
+        );
+    }
+
+    #[test]
+    fn the_reader_is_chosen_by_content() {
+        let problem = |text: &str| read(text).unwrap_err().to_string();
+        assert!(problem("<commonRoad/>").contains("expected <OpenDRIVE>"));
+        assert!(problem("junk <?xml version='1.0'?><a/>").contains("expected <OpenDRIVE>"));
+        assert!(problem("").contains("not well-formed XML"));
+        assert!(problem("\n# head\n header { version: 1 }").contains("lane the map has none"));
+        assert!(problem(&as_text(&[10, 0])).contains("lane the map has none"));
+    }
+}
