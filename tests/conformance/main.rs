@@ -12,7 +12,7 @@ mod stub_world;
 
 use cases::Case;
 use map::MapStore;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Where the maps are unless somebody says otherwise.
@@ -56,7 +56,7 @@ fn arguments() -> Option<(PathBuf, Vec<PathBuf>)> {
 
 /// Runs all cases of a file, and counts those that passed and failed on.
 fn run(
-    file: &PathBuf,
+    file: &Path,
     store: &mut MapStore,
     (mut passed, mut failed): (usize, usize),
 ) -> Result<(usize, usize), Box<dyn std::error::Error>> {

@@ -89,34 +89,19 @@ impl HdMap {
         for lane in &data.lanes {
             let short = || HdMapError::TooShort(lane.id.clone());
             let mut made = HdLane::new(lane.clone()).ok_or_else(short)?;
+            if !made.length().is_finite() {
+                return Err(not_finite(&lane.id, "points"));
+            }
             made.links = linker.links(lane);
             lanes.push(made);
         }
         let (pieces, pieces_tree) = index_pieces(&lanes);
-        let mut layers: [Layer; ObjectKind::COUNT] = Default::default();
-        let MapData {
-            junctions,
-            pnc_junctions,
-            crosswalks,
-            clear_areas,
-            parking_spaces,
-            ..
-        } = data;
-        layers[ObjectKind::Junction.index()] = Layer::of_areas(junctions);
-        layers[ObjectKind::PncJunction.index()] = Layer::of_areas(pnc_junctions);
-        layers[ObjectKind::Crosswalk.index()] = Layer::of_areas(crosswalks);
-        layers[ObjectKind::ClearArea.index()] = Layer::of_areas(clear_areas);
-        layers[ObjectKind::ParkingSpace.index()] = Layer::of_areas(parking_spaces);
-        layers[ObjectKind::Signal.index()] = Layer::of_lines(data.signals);
-        layers[ObjectKind::StopSign.index()] = Layer::of_lines(data.stop_signs);
-        layers[ObjectKind::YieldSign.index()] = Layer::of_lines(data.yield_signs);
-        layers[ObjectKind::SpeedBump.index()] = Layer::of_lines(data.speed_bumps);
         Ok(Self {
             lanes,
             by_name,
+            layers: layers(&data),
             overlaps: data.overlaps,
             roads: data.roads,
-            layers,
             pieces,
             pieces_tree,
         })
@@ -251,6 +236,22 @@ fn objects(data: &MapData) -> impl Iterator<Item = (ObjectKind, &str)> {
     lanes.chain(areas).chain(lines)
 }
 
+fn layers(data: &MapData) -> [Layer; ObjectKind::COUNT] {
+    ObjectKind::ALL.map(|kind| match kind {
+        // Lanes are found by the pieces of their centre lines.
+        ObjectKind::Lane => Layer::default(),
+        ObjectKind::Junction => Layer::of_areas(&data.junctions),
+        ObjectKind::PncJunction => Layer::of_areas(&data.pnc_junctions),
+        ObjectKind::Crosswalk => Layer::of_areas(&data.crosswalks),
+        ObjectKind::ClearArea => Layer::of_areas(&data.clear_areas),
+        ObjectKind::ParkingSpace => Layer::of_areas(&data.parking_spaces),
+        ObjectKind::Signal => Layer::of_lines(&data.signals),
+        ObjectKind::StopSign => Layer::of_lines(&data.stop_signs),
+        ObjectKind::YieldSign => Layer::of_lines(&data.yield_signs),
+        ObjectKind::SpeedBump => Layer::of_lines(&data.speed_bumps),
+    })
+}
+
 fn index_pieces(lanes: &[HdLane]) -> (Vec<(LaneId, usize)>, AabbTree) {
     let mut pieces = Vec::new();
     let mut boxes = Vec::new();
@@ -268,13 +269,16 @@ fn finite(points: &[Vec2]) -> bool {
     points.iter().all(|p| p.x.is_finite() && p.y.is_finite())
 }
 
+fn not_finite(object: &str, what: &'static str) -> HdMapError {
+    HdMapError::NotFinite {
+        object: object.to_owned(),
+        what,
+    }
+}
+
 fn check_lane(lane: &LaneData) -> Result<(), HdMapError> {
     if !finite(&lane.points) {
-        let object = lane.id.clone();
-        return Err(HdMapError::NotFinite {
-            object,
-            what: "points",
-        });
+        return Err(not_finite(&lane.id, "points"));
     }
     let tables = [
         ("left widths", &lane.left_samples),
@@ -284,8 +288,7 @@ fn check_lane(lane: &LaneData) -> Result<(), HdMapError> {
     ];
     for (what, table) in tables {
         if !table.iter().all(|(s, width)| s.is_finite() && width.is_finite()) {
-            let object = lane.id.clone();
-            return Err(HdMapError::NotFinite { object, what });
+            return Err(not_finite(&lane.id, what));
         }
         if !table.is_sorted_by(|a, b| a.0 <= b.0) {
             let lane = lane.id.clone();
@@ -318,10 +321,7 @@ fn check_objects(data: &MapData) -> Result<(), HdMapError> {
         .flatten()
         .map(|sign| (&sign.id, sign.lines.iter().all(|line| finite(line))));
     match areas.chain(lines).find(|(_, finite)| !finite) {
-        Some((object, _)) => Err(HdMapError::NotFinite {
-            object: object.clone(),
-            what: "points",
-        }),
+        Some((object, _)) => Err(not_finite(object, "points")),
         None => Ok(()),
     }
 }

@@ -20,6 +20,8 @@ mod shape;
 pub(crate) mod testing;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod wild;
 
 pub use boxes::SlBox;
 pub use data::{

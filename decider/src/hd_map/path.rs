@@ -71,8 +71,8 @@ pub enum PathError {
     /// Nothing to go along.
     #[error("a line needs two points apart from each other, {0} given")]
     TooFewPoints(usize),
-    /// A number that is none, or infinite.
-    #[error("point {0} of the line is not finite")]
+    /// A number that is none, or infinite, or a length that is.
+    #[error("the line is not finite up to its point {0}")]
     NotFinite(usize),
     /// A handle of another map.
     #[error("the map has no lane number {0}")]
@@ -114,8 +114,6 @@ pub struct Path {
     shared: Vec<Option<LaneSegment>>,
     pub(super) followed: Vec<Followed>,
     segments: Vec<LaneSegment>,
-    lane_widths: Vec<HalfWidths>,
-    road_widths: Vec<HalfWidths>,
     pub(super) overlaps: [Vec<PathOverlap>; ObjectKind::COUNT],
     pub(super) quirks: PathQuirks,
 }
@@ -150,10 +148,13 @@ impl Path {
         check(map, &points)?;
         let line = Polyline::new(points.iter().map(|p| p.position).collect())
             .ok_or(PathError::TooFewPoints(points.len()))?;
+        if !line.length().is_finite() {
+            return Err(PathError::NotFinite(points.len() - 1));
+        }
         let pairs = points.windows(2);
         let shared: Vec<_> = pairs.map(|pair| shared_lane(&pair[0], &pair[1])).collect();
         let followed = join(map, &shared, &line, quirks);
-        let mut path = Self {
+        Ok(Self {
             map: Arc::clone(map),
             segments: followed.iter().map(|followed| followed.segment).collect(),
             overlaps: ObjectKind::ALL.map(|kind| overlaps::along(map, &followed, kind)),
@@ -161,12 +162,8 @@ impl Path {
             line,
             shared,
             followed,
-            lane_widths: Vec::new(),
-            road_widths: Vec::new(),
             quirks,
-        };
-        (path.lane_widths, path.road_widths) = path.sample_widths();
-        Ok(path)
+        })
     }
 
     /// The map it lies on.
@@ -239,64 +236,42 @@ impl Path {
 
     /// Distances from the line to the (left, right) edges of its lane at `s`; `None` outside `[0, length]`.
     pub fn lane_width_at(&self, s: f64) -> Option<HalfWidths> {
-        self.in_samples(&self.lane_widths, s)
+        self.between_samples(s, HdLane::width_at)
     }
 
     /// Distances from the line to the (left, right) edges of the road at `s`; `None` outside `[0, length]`.
     pub fn road_width_at(&self, s: f64) -> Option<HalfWidths> {
-        self.in_samples(&self.road_widths, s)
+        self.between_samples(s, HdLane::road_width_at)
     }
 
     /// Linear between samples; the last one holds to the end of the line.
-    fn in_samples(&self, samples: &[HalfWidths], s: f64) -> Option<HalfWidths> {
-        if !(s >= 0.0 && s <= self.length()) {
+    fn between_samples(&self, s: f64, width: fn(&HdLane, f64) -> HalfWidths) -> Option<HalfWidths> {
+        if !(0.0..=self.length()).contains(&s) {
             return None;
         }
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "s is not negative and not beyond the line"
-        )]
-        let k = (s / SAMPLE_STEP) as usize;
-        let (Some(a), Some(b)) = (samples.get(k), samples.get(k + 1)) else {
-            return samples.last().copied();
-        };
-        let t = (s - k as f64 * SAMPLE_STEP) / SAMPLE_STEP;
+        let below = (s / SAMPLE_STEP).floor() * SAMPLE_STEP;
+        let a = self.sample(below, width);
+        if below + SAMPLE_STEP > self.length() {
+            return Some(a);
+        }
+        let b = self.sample(below + SAMPLE_STEP, width);
+        let t = (s - below) / SAMPLE_STEP;
         Some((a.0 + (b.0 - a.0) * t, a.1 + (b.1 - a.1) * t))
     }
 
-    /// Widths of lane and road, sampled from the first waypoint of every place.
-    fn sample_widths(&self) -> (Vec<HalfWidths>, Vec<HalfWidths>) {
-        let mut lanes = Vec::new();
-        let mut roads = Vec::new();
-        let mut s = 0.0;
-        while s <= self.length() {
-            let (vertex, offset) = self.line.locate(s);
-            let between = vertex + 1 < self.points.len() && offset > EPSILON;
-            let waypoint = if between {
-                self.waypoint_behind(vertex, offset)
-            } else {
-                self.points[vertex].waypoints.first().copied()
-            };
-            let (lane, road) = waypoint.map_or(
-                (
-                    (DEFAULT_HALF_WIDTH, DEFAULT_HALF_WIDTH),
-                    (DEFAULT_HALF_WIDTH, DEFAULT_HALF_WIDTH),
-                ),
-                |at| {
-                    let lane = self.map.lane(at.lane);
-                    let from_line = |(left, right): HalfWidths| (left - at.l, right + at.l);
-                    (
-                        from_line(lane.width_at(at.s)),
-                        from_line(lane.road_width_at(at.s)),
-                    )
-                },
-            );
-            lanes.push(lane);
-            roads.push(road);
-            s += SAMPLE_STEP;
-        }
-        (lanes, roads)
+    /// Widths seen from the line, by the first waypoint at `s` alone.
+    fn sample(&self, s: f64, width: fn(&HdLane, f64) -> HalfWidths) -> HalfWidths {
+        let (vertex, offset) = self.line.locate(s);
+        let waypoint = if vertex + 1 < self.points.len() && offset > EPSILON {
+            self.waypoint_behind(vertex, offset)
+        } else {
+            self.points[vertex].waypoints.first().copied()
+        };
+        let Some(LaneWaypoint { lane, s, l }) = waypoint else {
+            return (DEFAULT_HALF_WIDTH, DEFAULT_HALF_WIDTH);
+        };
+        let (left, right) = width(self.map.lane(lane), s);
+        (left - l, right + l)
     }
 }
 

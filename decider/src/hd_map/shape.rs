@@ -47,12 +47,14 @@ pub(super) struct Layer {
 }
 
 impl Layer {
-    pub(super) fn of_areas(areas: Vec<Area>) -> Self {
-        Self::new(areas.into_iter().map(|area| (area.id, Shape::Area(area.polygon))))
+    pub(super) fn of_areas(areas: &[Area]) -> Self {
+        let things = areas.iter();
+        Self::new(things.map(|area| (area.id.clone(), Shape::Area(area.polygon.clone()))))
     }
 
-    pub(super) fn of_lines(signs: Vec<StopLines>) -> Self {
-        Self::new(signs.into_iter().map(|sign| (sign.id, Shape::Lines(sign.lines))))
+    pub(super) fn of_lines(signs: &[StopLines]) -> Self {
+        let things = signs.iter();
+        Self::new(things.map(|sign| (sign.id.clone(), Shape::Lines(sign.lines.clone()))))
     }
 
     /// Things without a point are nowhere and left out.
@@ -153,7 +155,7 @@ mod tests {
             lines: vec![points(line)],
             ..StopLines::default()
         };
-        let layer = Layer::of_lines(vec![
+        let layer = Layer::of_lines(&[
             sign("near", &[(0.0, 0.0), (2.0, 0.0)]),
             sign("far", &[(0.0, 9.0), (2.0, 9.0)]),
             sign("point", &[(1.0, 1.0), (1.0, 1.0)]),

@@ -27,6 +27,8 @@ fn what_is_wrong_with_a_map_is_told() {
     assert_eq!(short, "lane `aside` needs two points apart from each other");
     let infinite = change(|data| data.lanes[1].points[1].x = f64::INFINITY);
     assert_eq!(infinite, "points of `before` hold a number that is not finite");
+    let endless = change(|data| data.lanes[1].points[1].x = 1e300);
+    assert_eq!(endless, infinite);
     let unsorted = change(|data| data.lanes[1].left_samples = vec![(3.0, 1.0), (2.0, 1.0)]);
     assert_eq!(unsorted, "left widths of lane `before` are not sorted by station");
     let unknown = change(|data| {

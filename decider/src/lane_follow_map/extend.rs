@@ -47,7 +47,7 @@ impl Extension<'_> {
         while missing > LEAST_REST {
             if s <= LEAST_REST {
                 match self.predecessor(lane) {
-                    Some(before) if !seen.contains(&before) => lane = before,
+                    Some(before) if seen.insert(before) => lane = before,
                     _ => break,
                 }
                 s = self.map.lane(lane).length();

@@ -311,6 +311,8 @@ fn a_loop_is_driven_once() {
         segment(&map, "there", 0.0, 30.0),
         "it ends where it would meet itself"
     );
+    let ever = follow.extend(&given, f64::NEG_INFINITY, f64::INFINITY).unwrap();
+    assert_eq!(ever.segments.len(), 2);
     assert!(follow.extend(&given, 5.0, 5.0).is_none() && follow.extend(&given, f64::NAN, 5.0).is_none());
 }
 

@@ -2,7 +2,7 @@
 
 use super::compare::compare_at;
 use super::json::{enumerator, point, xy};
-use super::{MapCase, SharedMap, lane_id};
+use super::{MapCase, SharedMap, lane_id, list};
 use corridor_decider::hd_map::{BoundaryData, HdLane, ObjectKind};
 use corridor_decider::road::Side;
 use serde::Deserialize;
@@ -72,8 +72,8 @@ fn boundary(boundary: &BoundaryData) -> Value {
 pub(super) fn at_stations(case: &MapCase, map: &SharedMap) -> Result<(), String> {
     let asked: Asked = case.input()?;
     let lane = map.lane(lane_id(map, &asked.lane)?);
-    for (k, s) in asked.s.iter().enumerate() {
-        let mut expected = case.expected[k].clone();
+    for (s, expected) in asked.s.iter().zip(list(&case.expected, asked.s.len())?) {
+        let mut expected = expected.clone();
         if remove(&mut expected, "defect") {
             expected["heading"] = json!(lane.headings().last());
         }
@@ -116,8 +116,8 @@ fn at_station(lane: &HdLane, s: f64) -> Value {
 pub(super) fn at_points(case: &MapCase, map: &SharedMap) -> Result<(), String> {
     let asked: Asked = case.input()?;
     let lane = map.lane(lane_id(map, &asked.lane)?);
-    for (k, asked) in asked.xy.iter().enumerate() {
-        let mut expected = case.expected[k].clone();
+    for (asked, expected) in asked.xy.iter().zip(list(&case.expected, asked.xy.len())?) {
+        let mut expected = expected.clone();
         let foot = lane.foot(point(*asked));
         if remove(&mut expected, "segment_tie") {
             expected["segment_index"] = json!(foot.piece);

@@ -3,7 +3,7 @@
 use super::compare::{compare, compare_at};
 use super::json::{name, path_point, point, segments, xy};
 use super::path::raw;
-use super::{MapCase, SharedMap};
+use super::{MapCase, SharedMap, list};
 use corridor_decider::geometry::{ConvexPolygon, Pose, Vec2, angle};
 use corridor_decider::hd_map::{CartesianState, Path, PathPoint, PathQuirks};
 use corridor_decider::reference_line::{LineQuery, SlPoint};
@@ -34,27 +34,30 @@ pub(super) fn queries(case: &MapCase, map: &SharedMap) -> Result<(), String> {
     let expected = &case.expected;
     let line = raw(map, &asked.segments)?;
     compare_at(".length", &expected["length"], &json!(line.length()))?;
-    for (at, expected) in asked.sl.iter().zip(list(expected, "at_sl")) {
+    for (at, expected) in asked.sl.iter().zip(list(&expected["at_sl"], asked.sl.len())?) {
         at_sl(&line, *at, expected).map_err(|mismatch| format!("{at:?}{mismatch}"))?;
     }
-    for (at, expected) in asked.x_y_theta_kappa_v_a.iter().zip(list(expected, "at_pose")) {
+    for (at, expected) in asked
+        .x_y_theta_kappa_v_a
+        .iter()
+        .zip(list(&expected["at_pose"], asked.x_y_theta_kappa_v_a.len())?)
+    {
         at_pose(&line, *at, expected).map_err(|mismatch| format!("{at:?}{mismatch}"))?;
     }
-    for (at, expected) in asked
-        .box_x_y_heading_length_width_gap
-        .iter()
-        .zip(list(expected, "boxes"))
-    {
+    for (at, expected) in asked.box_x_y_heading_length_width_gap.iter().zip(list(
+        &expected["boxes"],
+        asked.box_x_y_heading_length_width_gap.len(),
+    )?) {
         at_box(&line, *at, expected).map_err(|mismatch| format!("{at:?}{mismatch}"))?;
     }
-    for (at, expected) in asked.segment_s_back_forward.iter().zip(list(expected, "segment")) {
+    for (at, expected) in asked
+        .segment_s_back_forward
+        .iter()
+        .zip(list(&expected["segment"], asked.segment_s_back_forward.len())?)
+    {
         part(&line, *at, expected).map_err(|mismatch| format!("{at:?}{mismatch}"))?;
     }
     Ok(())
-}
-
-fn list<'a>(expected: &'a Value, key: &str) -> &'a [Value] {
-    expected[key].as_array().map_or(&[], Vec::as_slice)
 }
 
 fn at_sl(line: &Path, [s, l]: [f64; 2], expected: &Value) -> Result<(), String> {

@@ -105,6 +105,14 @@ impl MapCase {
     }
 }
 
+/// One expectation for each of `count` questions.
+fn list(expected: &Value, count: usize) -> Result<&[Value], String> {
+    match expected.as_array() {
+        Some(list) if list.len() == count => Ok(list),
+        _ => Err(format!("expected: a list of {count} answers is wanted")),
+    }
+}
+
 /// A lane by name.
 fn lane_id(map: &HdMap, name: &str) -> Result<corridor_decider::road::LaneId, String> {
     map.find(name)

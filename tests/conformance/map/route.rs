@@ -2,7 +2,7 @@
 
 use super::compare::{compare, compare_at};
 use super::json::{point, segments, waypoint};
-use super::{MapCase, SharedMap, lane_id};
+use super::{MapCase, SharedMap, lane_id, list};
 use corridor_decider::hd_map::{HdMap, LaneWaypoint};
 use corridor_decider::lane_follow_map::{
     FollowError, LaneFollowConfig, LaneFollowMap, LaneFollowQuirks, PassageId, Route, RouteSegments,
@@ -99,7 +99,10 @@ pub(super) fn drive(case: &MapCase, map: &SharedMap) -> Result<(), String> {
     if taken.is_ok() != is_followed(expected) {
         return Err(format!("update: expected {}, got {taken:?}", expected["update"]));
     }
-    let steps = expected["steps"].as_array().map_or(&[][..], Vec::as_slice);
+    let steps = match expected.get("steps") {
+        Some(steps) => list(steps, given.states.len())?,
+        None => &[],
+    };
     if let Some(route) = follow.route() {
         let got = json!({
             "update": true,
