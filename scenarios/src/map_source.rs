@@ -1,7 +1,7 @@
 //! Finds and reads the map that a scenario names, once for all its seeds.
 
 use crate::error::{Place, ScenarioError};
-use crate::import::opendrive;
+use crate::import::{commonroad, opendrive};
 use crate::maps;
 use corridor_decider::road::RoadMap;
 use std::collections::BTreeMap;
@@ -89,7 +89,7 @@ impl MapCache {
         } else {
             let text = maps::embedded(name).ok_or_else(|| {
                 not_found(format!(
-                    "expected one of {} or a path ending in `.xodr`",
+                    "expected one of {} or a path ending in `.xodr` or `.xml`",
                     own_maps()
                 ))
             })?;
@@ -111,6 +111,14 @@ impl MapCache {
 }
 
 fn read(text: Arc<str>) -> Result<LoadedMap, String> {
+    if commonroad::is_commonroad(&text) {
+        let read = commonroad::read(&text).map_err(|e| e.to_string())?;
+        return Ok(LoadedMap {
+            map: read.map,
+            text,
+            warnings: read.warnings.into(),
+        });
+    }
     let import = opendrive::read(&text).map_err(|e| e.to_string())?;
     Ok(LoadedMap {
         map: Arc::new(import.map),
@@ -129,7 +137,7 @@ fn is_path(name: &str) -> bool {
     name.contains(['/', '\\'])
         || Path::new(name)
             .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("xodr"))
+            .is_some_and(|e| e.eq_ignore_ascii_case("xodr") || e.eq_ignore_ascii_case("xml"))
 }
 
 /// The path that a map name means, or where it was looked for in vain.

@@ -57,6 +57,17 @@ pub enum ImportError {
         /// The limit in words.
         limit: &'static str,
     },
+    /// A planning problem that the file does not have.
+    #[error("there is no planning problem `{id}`; expected {}", if .known.is_empty() { "none, the file has no problem" } else { .known.as_str() })]
+    NoProblem {
+        /// Its id.
+        id: i64,
+        /// Those that there are, for people.
+        known: String,
+    },
+    /// A road on which nothing can be driven along.
+    #[error("there is no way to drive: {0}")]
+    NoWay(String),
     /// Every element is readable but the whole is not a map.
     #[error("{0}")]
     Map(#[from] MapError),
@@ -79,7 +90,7 @@ impl ImportError {
                 Some(*place)
             }
             Self::InFile { error, .. } => error.place(),
-            Self::Io(_) | Self::Map(_) => None,
+            Self::Io(_) | Self::Map(_) | Self::NoProblem { .. } | Self::NoWay(_) => None,
         }
     }
 }

@@ -3,6 +3,7 @@
 //! A reader survives what real files contain and tells it as a warning; what it cannot read it refuses with the
 //! line, the column and what would have been right. No input makes it panic or run without end.
 
+pub mod commonroad;
 mod error;
 mod lanelets;
 mod notes;
