@@ -39,6 +39,11 @@ impl<'a> Notes<'a> {
         });
     }
 
+    /// Line and column of a place, for an error.
+    pub(crate) fn text_place(&self, at: Place) -> TextPlace {
+        self.lines.place(at)
+    }
+
     pub(crate) fn into_warnings(self) -> Vec<String> {
         let line = |note: Note| {
             let Note {
