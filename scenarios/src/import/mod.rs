@@ -5,7 +5,6 @@
 
 pub mod commonroad;
 mod error;
-#[cfg_attr(not(test), expect(dead_code, reason = "the readers of lanelets are being written"))]
 mod lanelets;
 mod notes;
 pub mod opendrive;

@@ -11,6 +11,7 @@
 
 mod cruise;
 pub mod data;
+mod export;
 mod goal;
 mod network;
 mod obstacles;
@@ -26,15 +27,15 @@ mod vehicle;
 mod tests;
 
 use super::ImportError;
-use super::lanelets;
 use super::notes::Notes;
-use super::xml::{Element, Lines};
+use super::xml::{Element, Lines, Place};
 use crate::scenario::Scenario;
 use corridor_decider::road::RoadMap;
 use data::{File, Id};
 use std::path::Path;
 use std::sync::Arc;
 
+pub use export::DrivenState;
 pub use vehicle::{VEHICLE_TYPE, vehicle};
 
 /// A file with its road.
@@ -64,14 +65,12 @@ pub fn read(text: &str) -> Result<CommonRoad, ImportError> {
     let root = Element::root(&document, &lines, read::ROOT)?;
     let mut notes = Notes::new(&lines);
     let file = read::file(root, &mut notes)?;
-    let network = network::network(&file);
-    let map = lanelets::build(&network.lanelets, &network.junctions)?;
-    let mut warnings = notes.into_warnings();
-    warnings.extend(network.warnings);
+    let lanelets: Vec<Place> = root.children("lanelet").map(Element::place).collect();
+    let map = network::map(&file, &lanelets, &mut notes)?;
     Ok(CommonRoad {
         file,
         map: Arc::new(map),
-        warnings,
+        warnings: notes.into_warnings(),
     })
 }
 

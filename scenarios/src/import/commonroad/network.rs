@@ -1,9 +1,12 @@
-//! From lanelets to what a road map is built of: kinds, lines, speed limits, links made mutual, junctions.
+//! From lanelets to what a road map is built of: kinds, lines, speed limits, links, junctions.
 
-use super::data::{self, File, Id};
-use crate::import::lanelets::Lanelet;
-use corridor_decider::road::{BoundaryType, LaneKind, Neighbour, Side};
-use std::collections::{BTreeMap, BTreeSet};
+use super::data::{self, Adjacent, File, Id};
+use crate::import::ImportError;
+use crate::import::lanelets::{self, Lanelet};
+use crate::import::notes::Notes;
+use crate::import::xml::Place;
+use corridor_decider::road::{BoundaryType, LaneKind, Neighbour, RoadMap, Side};
+use std::collections::BTreeMap;
 
 /// Signs that name a top speed: the German and the American ones, which the format writes in m/s.
 const SPEED_SIGNS: [&str; 3] = ["274", "274.1", "R2-1"];
@@ -11,57 +14,39 @@ const SPEED_SIGNS: [&str; 3] = ["274", "274.1", "R2-1"];
 /// Junction of lanelets that call themselves part of an intersection while no intersection names them.
 const UNNAMED_JUNCTION: &str = "intersection";
 
-/// Lanelets with their junctions' names, and what was repaired or left out, each with how often.
-pub(super) struct Network {
-    pub(super) lanelets: Vec<Lanelet>,
-    pub(super) junctions: Vec<String>,
-    pub(super) warnings: Vec<String>,
-}
-
 /// Name of a lanelet in the map.
 pub(super) fn name(id: Id) -> String {
     id.to_string()
 }
 
-/// All lanelets of a file.
-pub(super) fn network(file: &File) -> Network {
-    let places: BTreeMap<Id, usize> = (0..).zip(&file.lanelets).map(|(k, l)| (l.id, k)).collect();
+/// The road of a file whose lanelets stand at `elements`.
+pub(super) fn map(file: &File, elements: &[Place], notes: &mut Notes<'_>) -> Result<RoadMap, ImportError> {
     let limits = speed_signs(file);
     let (junctions, members) = junctions(file);
-    let mut lanelets: Vec<Lanelet> = file
-        .lanelets
-        .iter()
-        .map(|lanelet| {
-            let [left, right] = &lanelet.bounds;
-            let posted = lanelet.signs.iter().filter_map(|sign| limits.get(sign).copied());
-            Lanelet {
-                name: name(lanelet.id),
-                kind: kind(lanelet),
-                left: left.points.clone(),
-                right: right.points.clone(),
-                left_mark: mark(left.marking.as_deref()),
-                right_mark: mark(right.marking.as_deref()),
-                neighbours: [None; 4],
-                predecessors: Vec::new(),
-                successors: Vec::new(),
-                speed_limit: lanelet.speed_limit.filter(|v| *v > 0.0).into_iter().chain(posted).reduce(f64::min),
-                junction: members.get(&lanelet.id).copied(),
-            }
-        })
-        .collect();
     let mut links = Links {
-        places: &places,
-        unknown: BTreeSet::new(),
-        one_sided: 0,
-        contradictions: 0,
+        places: (0..).zip(&file.lanelets).map(|(k, l)| (l.id, k)).collect(),
+        notes,
     };
-    links.connect(file, &mut lanelets);
-    links.adjoin(file, &mut lanelets);
-    Network {
-        lanelets,
-        junctions,
-        warnings: links.warnings(),
+    let mut lanelets = Vec::with_capacity(file.lanelets.len());
+    for (lanelet, element) in file.lanelets.iter().zip(elements) {
+        let [left, right] = &lanelet.bounds;
+        let posted = lanelet.signs.iter().filter_map(|sign| limits.get(sign).copied());
+        let own = lanelet.speed_limit.filter(|limit| *limit > 0.0);
+        lanelets.push(Lanelet {
+            name: name(lanelet.id),
+            kind: kind(lanelet),
+            left: left.points.clone(),
+            right: right.points.clone(),
+            left_mark: mark(left.marking.as_deref()),
+            right_mark: mark(right.marking.as_deref()),
+            neighbours: links.beside(lanelet.adjacent, *element),
+            predecessors: links.ahead_or_behind(&lanelet.predecessors, *element),
+            successors: links.ahead_or_behind(&lanelet.successors, *element),
+            speed_limit: own.into_iter().chain(posted).reduce(f64::min),
+            junction: members.get(&lanelet.id).copied(),
+        });
     }
+    lanelets::build(&lanelets, junctions, elements, notes)
 }
 
 /// What a lanelet is for. Of several words the one that keeps cars away counts.
@@ -79,9 +64,7 @@ fn kind(lanelet: &data::Lanelet) -> LaneKind {
         LaneKind::Shoulder
     } else if is("parking") {
         LaneKind::Parking
-    } else if is("restricted") || is("busLane") || is("busStop") {
-        LaneKind::Restricted
-    } else if !users.is_empty() && !users.iter().any(for_cars) {
+    } else if is("restricted") || is("busLane") || is("busStop") || (!users.is_empty() && !users.iter().any(for_cars)) {
         LaneKind::Restricted
     } else if is("accessRamp") || is("exitRamp") {
         LaneKind::Ramp
@@ -134,83 +117,34 @@ fn junctions(file: &File) -> (Vec<String>, BTreeMap<Id, usize>) {
     (names, members)
 }
 
-/// Ties lanelets together, and remembers what did not fit.
-struct Links<'a> {
-    places: &'a BTreeMap<Id, usize>,
-    unknown: BTreeSet<Id>,
-    one_sided: usize,
-    contradictions: usize,
+/// Finds lanelets by id and tells of those that are not there.
+struct Links<'a, 'n> {
+    places: BTreeMap<Id, usize>,
+    notes: &'a mut Notes<'n>,
 }
 
-impl Links<'_> {
-    fn place(&mut self, id: Id) -> Option<usize> {
+impl Links<'_, '_> {
+    /// The place of the lanelet that another one, at `from`, refers to.
+    fn place(&mut self, id: Id, from: Place) -> Option<usize> {
         let place = self.places.get(&id).copied();
         if place.is_none() {
-            self.unknown.insert(id);
+            let what = "a reference to a lanelet that does not exist is ignored";
+            self.notes.add(what, from, || format!("lanelet `{id}`"));
         }
         place
     }
 
-    /// Ahead and behind; either of two lanelets may be the one that says it.
-    fn connect(&mut self, file: &File, lanelets: &mut [Lanelet]) {
-        let mut pairs = BTreeSet::new();
-        for (here, lanelet) in file.lanelets.iter().enumerate() {
-            let ahead = lanelet.successors.iter().map(|id| (*id, true));
-            let behind = lanelet.predecessors.iter().map(|id| (*id, false));
-            for (id, is_ahead) in ahead.chain(behind) {
-                let Some(there) = self.place(id).filter(|there| *there != here) else {
-                    continue;
-                };
-                pairs.insert(if is_ahead { (here, there) } else { (there, here) });
-            }
-        }
-        for (from, to) in pairs {
-            lanelets[from].successors.push(to);
-            lanelets[to].predecessors.push(from);
-        }
+    fn ahead_or_behind(&mut self, ids: &[Id], from: Place) -> Vec<usize> {
+        ids.iter().filter_map(|id| self.place(*id, from)).collect()
     }
 
-    /// Beside. What one lanelet says of another holds for both, unless the other says otherwise.
-    fn adjoin(&mut self, file: &File, lanelets: &mut [Lanelet]) {
-        let mut told = Vec::new();
-        for (here, lanelet) in file.lanelets.iter().enumerate() {
-            for (side, adjacent) in [Side::Left, Side::Right].into_iter().zip(lanelet.adjacent) {
-                let Some(adjacent) = adjacent else { continue };
-                let Some(there) = self.place(adjacent.id).filter(|there| *there != here) else {
-                    continue;
-                };
-                let reverse = !adjacent.same_direction;
-                lanelets[here].neighbours[Neighbour { side, reverse }.index()] = Some(there);
-                // Who comes the other way has the same side in common.
-                let back = if reverse { side } else { side.opposite() };
-                told.push((here, there, Neighbour { side: back, reverse }));
-            }
+    fn beside(&mut self, adjacent: [Option<Adjacent>; 2], from: Place) -> [Option<usize>; 4] {
+        let mut neighbours = [None; 4];
+        for (side, adjacent) in [Side::Left, Side::Right].into_iter().zip(adjacent) {
+            let Some(adjacent) = adjacent else { continue };
+            let reverse = !adjacent.same_direction;
+            neighbours[Neighbour { side, reverse }.index()] = self.place(adjacent.id, from);
         }
-        for (here, there, back) in told {
-            let slot = &mut lanelets[there].neighbours[back.index()];
-            match *slot {
-                None => {
-                    *slot = Some(here);
-                    self.one_sided += 1;
-                }
-                Some(other) if other != here => self.contradictions += 1,
-                Some(_) => {}
-            }
-        }
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        let mut tell = |count: usize, what: &str| {
-            if count > 0 {
-                warnings.push(format!("{what} ({count} in the file)"));
-            }
-        };
-        tell(self.one_sided, "only one of two lanelets names the other as beside it: taken as mutual");
-        tell(self.contradictions, "a lanelet beside another names a third one in its place: each keeps its own");
-        let unknown: Vec<String> = self.unknown.iter().take(5).map(|id| format!("`{id}`")).collect();
-        let what = format!("references to lanelets that do not exist are ignored: {}", unknown.join(", "));
-        tell(self.unknown.len(), &what);
-        warnings
+        neighbours
     }
 }
