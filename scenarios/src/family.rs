@@ -162,6 +162,11 @@ impl Family {
         &self.map.warnings
     }
 
+    /// Whether it is a scene that others recorded.
+    pub fn is_recorded(&self) -> bool {
+        matches!(self.origin, Origin::Recorded(_))
+    }
+
     /// Whether every seed gives the same scenario.
     pub fn is_fixed(&self) -> bool {
         self.fixed

@@ -69,8 +69,11 @@ impl Recording {
     fn at(&self, passed: usize, time: f64) -> Option<(Pose, Vec2)> {
         let from = self.states.get(passed.checked_sub(1)?)?;
         let Some(to) = self.states.get(passed) else {
-            let is_there = self.after == AfterRecord::Holds || from.t >= time;
-            return is_there.then_some((from.pose, Vec2::zeros()));
+            // The last state still counts, with its speed.
+            let is_now = from.t >= time;
+            let speed = if is_now { from.speed } else { 0.0 };
+            let is_there = is_now || self.after == AfterRecord::Holds;
+            return is_there.then_some((from.pose, from.pose.forward() * speed));
         };
         // The next state is later than `time` and this one is not, so the leg has a duration.
         let part = (time - from.t) / (to.t - from.t);

@@ -10,7 +10,6 @@ use corridor_decider::frame::Command;
 use corridor_decider::geometry::Pose;
 use corridor_decider::reference_line::LineQuery;
 use corridor_decider::road::{Lane, LaneId, MapError};
-use std::sync::Arc;
 
 /// How long to cruise, s.
 const TIMEOUT: f64 = 40.0;
@@ -31,7 +30,7 @@ const BEYOND: f64 = 30.0;
 const SHARE: f64 = 0.5;
 
 impl CommonRoad {
-    pub(super) fn cruise(&self, remarks: &mut Remarks) -> Result<Scenario, ImportError> {
+    pub(super) fn cruise(&self, remarks: &mut Remarks, warnings: &mut Vec<String>) -> Result<Scenario, ImportError> {
         let obstacles = obstacles::obstacles(&self.file, None, remarks);
         let vehicle = vehicle();
         let (id, lane) = self.longest_lane()?;
@@ -41,14 +40,14 @@ impl CommonRoad {
             outlines.into_iter().all(|outline| outline.distance(&footprint) >= ROOM)
         };
         let stations = (1_u32..).map(|k| f64::from(k) * STEP).take_while(|s| *s < lane.length() / 2.0);
-        let places = stations.map(|s| (s, lane.at(s))).map(|(s, at)| (s, Pose::new(at.x, at.y, at.theta)));
+        let mut places = stations.map(|s| (s, lane.at(s))).map(|(s, at)| (s, Pose::new(at.x, at.y, at.theta)));
         let middle = lane.at(lane.length() / 2.0);
         let (s, pose) = places
-            .filter(|(_, pose)| is_free(pose))
-            .next()
+            .find(|(_, pose)| is_free(pose))
             .unwrap_or((middle.s, Pose::new(middle.x, middle.y, middle.theta)));
         let way = [Step { lane: id, change: None }];
-        let road = Road::along(&self.map, &way, pose.position()).map_err(|error| ImportError::NoWay(error.to_string()))?;
+        let map = self.lengthened(&way, pose.position(), warnings)?;
+        let road = Road::along(&map, &way, pose.position()).map_err(|error| ImportError::NoWay(error.to_string()))?;
         let limit = lane.at(s).speed_limit;
         let speed = if limit.is_finite() { limit.min(SPEED) } else { SPEED };
         let start = road.line.to_frenet(pose.position()).s;
@@ -57,7 +56,7 @@ impl CommonRoad {
             name: self.file.benchmark.clone(),
             description: format!("CommonRoad `{}`: no planning problem.", self.file.benchmark),
             seed: 0,
-            map: Arc::clone(&self.map),
+            map,
             route: road.route,
             line: road.line,
             target_line: None,

@@ -1,7 +1,9 @@
 //! A finished run for CommonRoad's own tools: as a solution of the benchmark, and as one more obstacle of the
 //! scenario.
 //!
-//! Both hold one state per time step of the file, of the middle of the body, written with [`DECIMALS`] decimals.
+//! Both hold one state per time step of the file, of the middle of the body, written with [`DECIMALS`] decimals. A
+//! drive that ends between two steps is carried on to the next one at the speed and yaw rate of its end, so that a
+//! contact between the steps shows.
 //! The solution is one of the kinematic single-track model: place, heading, speed and road-wheel angle.
 
 use super::data::{Id, Problem};
@@ -119,7 +121,12 @@ impl CommonRoad {
         let mut after = 0;
         for step in 0_u32.. {
             let t = f64::from(step) * dt;
+            #[expect(clippy::cast_possible_truncation, reason = "times of files are small whole numbers")]
+            let number = i64::from(step) + first.round() as i64;
             if t > end.t + ON_TIME {
+                if t - dt < end.t - ON_TIME {
+                    rows.push(row(number, &carried_on(&end.ego, t - end.t), vehicle));
+                }
                 break;
             }
             while drive.get(after).is_some_and(|state| state.t < t - ON_TIME) {
@@ -127,9 +134,7 @@ impl CommonRoad {
             }
             let to = drive.get(after).unwrap_or(end);
             let from = drive.get(after.wrapping_sub(1)).unwrap_or(start);
-            #[expect(clippy::cast_possible_truncation, reason = "times of files are small whole numbers")]
-            let step = i64::from(step) + first.round() as i64;
-            rows.push(row(step, &between(from, to, t), vehicle));
+            rows.push(row(number, &between(from, to, t), vehicle));
         }
         rows
     }
@@ -154,6 +159,17 @@ fn between(from: &DrivenState, to: &DrivenState, t: f64) -> EgoState {
         a: mix(a.a, b.a),
         yaw_rate: mix(a.yaw_rate, b.yaw_rate),
         steer: mix(a.steer, b.steer),
+    }
+}
+
+/// The state after `duration` more seconds at constant speed and yaw rate.
+fn carried_on(ego: &EgoState, duration: f64) -> EgoState {
+    let turn = ego.yaw_rate * duration;
+    let halfway = Pose::new(ego.pose.x, ego.pose.y, angle::wrap(ego.pose.theta + turn / 2.0));
+    let there = halfway.advanced(ego.v * duration);
+    EgoState {
+        pose: Pose::new(there.x, there.y, angle::wrap(ego.pose.theta + turn)),
+        ..*ego
     }
 }
 

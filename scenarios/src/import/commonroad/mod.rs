@@ -13,6 +13,7 @@ mod cruise;
 pub mod data;
 mod export;
 mod goal;
+mod lengthen;
 mod network;
 mod obstacles;
 mod pace;
@@ -32,6 +33,7 @@ use super::xml::{Element, Lines, Place};
 use crate::scenario::Scenario;
 use corridor_decider::road::RoadMap;
 use data::{File, Id};
+use network::Network;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -45,6 +47,7 @@ pub struct CommonRoad {
     pub file: File,
     /// Its lanelets as a map; a lane's name is its lanelet's id.
     pub map: Arc<RoadMap>,
+    network: Network,
     /// What was survived on the way, one line each.
     pub warnings: Vec<String>,
 }
@@ -66,10 +69,12 @@ pub fn read(text: &str) -> Result<CommonRoad, ImportError> {
     let mut notes = Notes::new(&lines);
     let file = read::file(root, &mut notes)?;
     let lanelets: Vec<Place> = root.children("lanelet").map(Element::place).collect();
-    let map = network::map(&file, &lanelets, &mut notes)?;
+    let network = network::network(&file, lanelets, &mut notes);
+    let map = Arc::new(network.build(&mut notes)?);
     Ok(CommonRoad {
         file,
-        map: Arc::new(map),
+        network,
+        map,
         warnings: notes.into_warnings(),
     })
 }

@@ -1,11 +1,12 @@
 //! From lanelets to what a road map is built of: kinds, lines, speed limits, links, junctions.
 
 use super::data::{self, Adjacent, File, Id};
+use super::lengthen::{self, End};
 use crate::import::ImportError;
 use crate::import::lanelets::{self, Lanelet};
 use crate::import::notes::Notes;
-use crate::import::xml::Place;
-use corridor_decider::road::{BoundaryType, LaneKind, Neighbour, RoadMap, Side};
+use crate::import::xml::{Lines, Place};
+use corridor_decider::road::{BoundaryType, LaneId, LaneKind, Neighbour, RoadMap, Side};
 use std::collections::BTreeMap;
 
 /// Signs that name a top speed: the German and the American ones, which the format writes in m/s.
@@ -14,13 +15,21 @@ const SPEED_SIGNS: [&str; 3] = ["274", "274.1", "R2-1"];
 /// Junction of lanelets that call themselves part of an intersection while no intersection names them.
 const UNNAMED_JUNCTION: &str = "intersection";
 
+/// Lanelets and their junctions' names.
+#[derive(Clone, Debug)]
+pub(super) struct Network {
+    lanelets: Vec<Lanelet>,
+    junctions: Vec<String>,
+    elements: Vec<Place>,
+}
+
 /// Name of a lanelet in the map.
 pub(super) fn name(id: Id) -> String {
     id.to_string()
 }
 
-/// The road of a file whose lanelets stand at `elements`.
-pub(super) fn map(file: &File, elements: &[Place], notes: &mut Notes<'_>) -> Result<RoadMap, ImportError> {
+/// What the road map of a file is built of. Its lanelets stand at `elements`.
+pub(super) fn network(file: &File, elements: Vec<Place>, notes: &mut Notes<'_>) -> Network {
     let limits = speed_signs(file);
     let (junctions, members) = junctions(file);
     let mut links = Links {
@@ -28,7 +37,7 @@ pub(super) fn map(file: &File, elements: &[Place], notes: &mut Notes<'_>) -> Res
         notes,
     };
     let mut lanelets = Vec::with_capacity(file.lanelets.len());
-    for (lanelet, element) in file.lanelets.iter().zip(elements) {
+    for (lanelet, element) in file.lanelets.iter().zip(&elements) {
         let [left, right] = &lanelet.bounds;
         let posted = lanelet.signs.iter().filter_map(|sign| limits.get(sign).copied());
         let own = lanelet.speed_limit.filter(|limit| *limit > 0.0);
@@ -46,7 +55,28 @@ pub(super) fn map(file: &File, elements: &[Place], notes: &mut Notes<'_>) -> Res
             junction: members.get(&lanelet.id).copied(),
         });
     }
-    lanelets::build(&lanelets, junctions, elements, notes)
+    Network {
+        lanelets,
+        junctions,
+        elements,
+    }
+}
+
+impl Network {
+    /// The map.
+    pub(super) fn build(&self, notes: &mut Notes<'_>) -> Result<RoadMap, ImportError> {
+        lanelets::build(&self.lanelets, self.junctions.clone(), &self.elements, notes)
+    }
+
+    /// The same with `map`, which was built of this, going on straight at some of its ends.
+    pub(super) fn lengthened(&self, map: &RoadMap, ends: &[(LaneId, End)]) -> Result<RoadMap, ImportError> {
+        let lanelets = lengthen::lengthened(&self.lanelets, map, ends);
+        // What was to be told has been told of the map; additions count as standing where the first lanelet does.
+        let text = Lines::new("", "");
+        let first = self.elements.iter().take(1).cycle();
+        let elements: Vec<Place> = self.elements.iter().chain(first).copied().take(lanelets.len()).collect();
+        lanelets::build(&lanelets, self.junctions.clone(), &elements, &mut Notes::new(&text))
+    }
 }
 
 /// What a lanelet is for. Of several words the one that keeps cars away counts.

@@ -15,6 +15,9 @@ const SPEEDS: (f64, f64) = (1.5, 50.0);
 /// How far inside its stretch the goal is aimed at, m, and as a share of the stretch where that is short.
 const INSIDE: (f64, f64) = (5.0, 0.25);
 
+/// Share of the time that is left for the way, the rest is for lags; and what getting off to a start takes, s.
+const IN_TIME: (f64, f64) = (0.9, 0.5);
+
 /// How far below the goal's largest speed to drive, m/s.
 const BELOW: f64 = 0.3;
 
@@ -66,7 +69,8 @@ impl Pace<'_> {
             if early > 0.0 {
                 speed = speed.min(far.max(0.0) / early);
             }
-            speed = speed.max(speed_to_cover(near, late, now, self.acceleration));
+            let in_time = (IN_TIME.0 * late - IN_TIME.1).max(early);
+            speed = speed.max(speed_to_cover(near, in_time, now, self.acceleration));
         }
         if let Some((low, high)) = goal.speed {
             speed = speed.min(high - BELOW).max(low);

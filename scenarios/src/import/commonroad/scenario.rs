@@ -2,6 +2,7 @@
 //! long and what for.
 
 use super::data::{Id, Problem, State};
+use super::lengthen::{self, End};
 use super::remarks::Remarks;
 use super::route::{self, Step};
 use super::{CommonRoad, goal, obstacles, pace, vehicle};
@@ -16,8 +17,8 @@ use corridor_decider::road::{LaneId, Neighbour, RoadMap, Side};
 use corridor_decider::vehicle::VehicleParams;
 use std::sync::Arc;
 
-/// Length of road wanted beyond the goal, m: what one plans ahead, and then as far as a car gets while it brakes.
-const BEYOND_GOAL: f64 = 300.0;
+/// Length of road wanted beyond the goal, m.
+const BEYOND_GOAL: f64 = lengthen::AHEAD;
 
 /// Nearer to the start of its lane than this, m, the ego's line begins in a lane before.
 const BEHIND: f64 = 20.0;
@@ -52,11 +53,18 @@ impl CommonRoad {
             Some(problem) => self.solve(problem, &mut remarks, &mut warnings)?,
             None => {
                 warnings.push("no planning problem: cruises along the longest lane".to_owned());
-                self.cruise(&mut remarks)?
+                self.cruise(&mut remarks, &mut warnings)?
             }
         };
         warnings.extend(remarks.into_warnings());
         Ok((scenario, warnings))
+    }
+
+    /// The planning problem that a seed stands for: they take turns, the first one with seed 1.
+    pub fn problem_of_seed(&self, seed: u64) -> Option<&Problem> {
+        let problems = &self.file.problems;
+        let turn = seed.wrapping_sub(1).checked_rem(problems.len() as u64)?;
+        problems.get(usize::try_from(turn).ok()?)
     }
 
     fn solve(
@@ -98,14 +106,16 @@ impl CommonRoad {
         if changes > 1 {
             warnings.push(format!("`{}`: the goal is {changes} lanes aside: the first change is asked for", problem.id));
         }
-        let road = Road::along(&self.map, &way, center.position()).map_err(|error| no_way(error.to_string()))?;
+        let map = self.lengthened(&way, center.position(), warnings)?;
+        let road = Road::along(&map, &way, center.position()).map_err(|error| no_way(error.to_string()))?;
         let pace = pace::Pace {
-            map: &self.map,
+            map: &map,
             way: &way,
             start: center.position(),
             stretch: way.last().and_then(|step| stretches.get(&step.lane).copied()),
             acceleration: vehicle.max_acceleration,
         };
+        let cruise_speed = pace.cruise_speed(ego.speed, &goal);
         let latest = goal.latest();
         if latest > LONGEST {
             warnings.push(format!("`{}`: {latest} s are cut off at {LONGEST} s", problem.id));
@@ -116,19 +126,48 @@ impl CommonRoad {
             name: self.file.benchmark.clone(),
             description: format!("CommonRoad `{}`, planning problem {}.", self.file.benchmark, problem.id),
             seed: 0,
-            map: Arc::clone(&self.map),
+            map,
             command: road.change.map_or(Command::Cruise, Command::ChangeLane),
             route: road.route,
             line: road.line,
             target_line: road.target,
             ego,
             command_time: 0.0,
-            cruise_speed: pace.cruise_speed(ego.speed, &goal),
+            cruise_speed,
             obstacles,
             vehicle,
             timeout: (latest + SLACK).min(LONGEST),
             expect: Expectation::Goal(goal),
         })
+    }
+
+    /// The map, going on straight where it ends on the way.
+    pub(super) fn lengthened(
+        &self,
+        way: &[Step],
+        start: Vec2,
+        warnings: &mut Vec<String>,
+    ) -> Result<Arc<RoadMap>, ImportError> {
+        let parts = way.split(|step| step.change.is_some()).filter(|part| !part.is_empty());
+        let mut ends = Vec::new();
+        let after_changes = way.iter().filter(|step| step.change.is_some()).map(|step| step.lane);
+        let own = parts.map(|part| part[part.len() - 1].lane);
+        for last in own.chain(after_changes) {
+            let lanes = straight_on(&self.map, last, BEYOND_GOAL);
+            let last = lanes[lanes.len() - 1];
+            if self.map.lane(last).successors.is_empty() && !ends.contains(&(last, End::Ahead)) {
+                ends.push((last, End::Ahead));
+            }
+        }
+        let first = way[0].lane;
+        if self.map.lane(first).predecessors.is_empty() && route::station(&self.map, first, start) < BEHIND {
+            ends.push((first, End::Behind));
+        }
+        if ends.is_empty() {
+            return Ok(Arc::clone(&self.map));
+        }
+        warnings.push("the file's road ends on the ego's way: it goes on straight there".to_owned());
+        Ok(Arc::new(self.network.lengthened(&self.map, &ends)?))
     }
 
     /// Place and heading of the middle of the body; without a heading, along the lane.

@@ -8,6 +8,9 @@ use corridor_decider::reference_line::LineQuery;
 use corridor_decider::geometry::{Pose, Vec2};
 use corridor_decider::road::Side;
 
+/// What is told of every scene on the plain road.
+const CUT: &str = "the file's road ends on the ego's way: it goes on straight there";
+
 fn lanes(scenario: &Scenario) -> Vec<&str> {
     scenario.route.iter().map(|lane| scenario.map.lane(*lane).name.as_str()).collect()
 }
@@ -15,14 +18,28 @@ fn lanes(scenario: &Scenario) -> Vec<&str> {
 #[test]
 fn the_ego_starts_with_its_middle_at_the_problems_state() {
     let (scenario, warnings) = scene(PLAIN);
-    assert!(warnings.is_empty(), "{warnings:?}");
+    assert_eq!(warnings, [CUT]);
     let center = scenario.vehicle.center(scenario.ego.pose);
     assert!((center.position() - Vec2::new(20.0, 0.0)).norm() < 1e-12);
     assert!((scenario.ego.pose.x - (20.0 - 1.422_717_093_6)).abs() < 1e-9);
     assert!((scenario.ego.speed - 10.0).abs() < 1e-12);
-    assert_eq!(lanes(&scenario), ["1"]);
+    assert_eq!(lanes(&scenario), ["1", "1.ahead"]);
     assert_eq!(scenario.command, Command::Cruise);
     assert!((scenario.timeout - 9.0).abs() < 1e-12, "the goal's last moment and the slack");
+}
+
+#[test]
+fn the_road_goes_on_where_the_file_cuts_it() {
+    let (scenario, _) = scene(&plain_but("<x>20</x>", "<x>1</x>"));
+    assert_eq!(lanes(&scenario), ["1.behind", "1", "1.ahead"]);
+    assert!(scenario.line.length() > 500.0);
+    let rear = scenario.vehicle.footprint(scenario.ego.pose);
+    for corner in rear.vertices() {
+        assert!(scenario.map.distance_off_road(*corner) < 1e-9, "{corner} is off the road");
+    }
+    for x in [-20.0, 100.0, 350.0] {
+        assert!(scenario.line.to_frenet(Vec2::new(x, 0.0)).l.abs() < 1e-6, "straight on at {x}");
+    }
 }
 
 #[test]
@@ -63,7 +80,7 @@ fn a_moving_obstacle_replays_its_states_and_then_leaves() {
     // The first state of the trajectory repeats the initial one, as some files do.
     let car = moving(9, &[(0, 50.0, 3.5), (0, 50.0, 3.5), (1, 51.0, 3.5), (3, 53.0, 3.5)]);
     let (scenario, warnings) = scene(&plain_and(&car));
-    assert!(warnings.is_empty(), "{warnings:?}");
+    assert_eq!(warnings, [CUT]);
     let car = &scenario.obstacles[1];
     assert_eq!((car.name.as_str(), car.kind), ("9", ObstacleKind::Car));
     let Behaviour::Recorded { states, after } = &car.behaviour else { panic!("{:?}", car.behaviour) };
@@ -79,14 +96,14 @@ fn states_out_of_order_are_put_in_order_and_told() {
     let (scenario, warnings) = scene(&plain_and(&moving(9, &[(0, 50.0, 3.5), (2, 52.0, 3.5), (1, 51.0, 3.5)])));
     let Behaviour::Recorded { states, .. } = &scenario.obstacles[1].behaviour else { panic!() };
     assert!(states.is_sorted_by(|a, b| a.t < b.t && a.pose.x < b.pose.x));
-    assert_eq!(warnings, ["`9` has states out of order: put in order"]);
+    assert_eq!(warnings, [CUT, "`9` has states out of order: put in order"]);
 }
 
 #[test]
 fn the_recording_of_the_ego_itself_is_left_out() {
     let (scenario, warnings) = scene(&plain_and(&moving(9, &[(0, 20.0, 0.0), (1, 21.0, 0.0)])));
     assert_eq!(scenario.obstacles.len(), 1);
-    assert_eq!(warnings, ["`9` starts as the ego itself: taken for its recording and left out"]);
+    assert_eq!(warnings, [CUT, "`9` starts as the ego itself: taken for its recording and left out"]);
     let (beside, _) = scene(&plain_and(&moving(9, &[(0, 20.0, 3.5), (1, 21.0, 3.5)])));
     assert_eq!(beside.obstacles.len(), 2);
 }
@@ -101,7 +118,7 @@ fn a_union_becomes_several_bodies_and_an_angle_its_hull() {
     let names: Vec<&str> = scenario.obstacles.iter().map(|o| o.name.as_str()).collect();
     assert_eq!(names, ["7", "7.2"]);
     assert!((scenario.obstacles[1].shape.area() - 6.0).abs() < 1e-9);
-    assert_eq!(warnings.len(), 2, "{warnings:?}");
+    assert_eq!(warnings.len(), 3, "{warnings:?}");
 }
 
 #[test]
