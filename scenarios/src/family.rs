@@ -2,9 +2,9 @@
 
 mod recorded;
 
-use crate::import::commonroad;
 use crate::error::{DrawError, Place, ScenarioError};
 use crate::expectation;
+use crate::import::commonroad;
 use crate::map_source::{LoadedMap, MapCache};
 use crate::resolve::Draft;
 use crate::resolve::sampler::Sampler;
@@ -200,7 +200,6 @@ impl Family {
             rejected,
         })
     }
-
 }
 
 impl Template {

@@ -57,7 +57,9 @@ impl GoalRegion {
             return false;
         }
         let time = step;
-        self.alternatives.iter().any(|goal| goal.is_met(time, center, speed))
+        self.alternatives
+            .iter()
+            .any(|goal| goal.is_met(time, center, speed))
     }
 
     /// The last moment at which a goal can be met, s.
@@ -69,12 +71,13 @@ impl GoalRegion {
 
 impl GoalState {
     fn is_met(&self, time: f64, center: Pose, speed: f64) -> bool {
-        let is_within = |value: f64, (low, high): (f64, f64)| {
-            value >= low - TOLERANCE && value <= high + TOLERANCE
-        };
+        let is_within =
+            |value: f64, (low, high): (f64, f64)| value >= low - TOLERANCE && value <= high + TOLERANCE;
         is_within(time, self.time)
             && self.speed.is_none_or(|range| is_within(speed, range))
-            && self.heading.is_none_or(|range| is_turned_into(center.theta, range))
+            && self
+                .heading
+                .is_none_or(|range| is_turned_into(center.theta, range))
             && self.is_in_place(center.position())
     }
 
@@ -111,9 +114,7 @@ impl GoalArea {
     pub fn middle(&self) -> Vec2 {
         match self {
             Self::Circle { center, .. } => *center,
-            Self::Polygon(corners) => {
-                corners.iter().sum::<Vec2>() / (corners.len().max(1) as f64)
-            }
+            Self::Polygon(corners) => corners.iter().sum::<Vec2>() / (corners.len().max(1) as f64),
         }
     }
 }
@@ -144,7 +145,14 @@ mod tests {
     #[test]
     fn a_polygon_need_not_be_convex() {
         let corners = [
-            (0.0, 0.0), (6.0, 0.0), (6.0, 4.0), (4.0, 4.0), (4.0, 1.0), (2.0, 1.0), (2.0, 4.0), (0.0, 4.0),
+            (0.0, 0.0),
+            (6.0, 0.0),
+            (6.0, 4.0),
+            (4.0, 4.0),
+            (4.0, 1.0),
+            (2.0, 1.0),
+            (2.0, 4.0),
+            (0.0, 4.0),
         ];
         let corners: Vec<Vec2> = corners.iter().map(|(x, y)| Vec2::new(*x, *y)).collect();
         let turned = corners.iter().rev().copied().collect();
@@ -170,7 +178,11 @@ mod tests {
         let met = |k: u32| region.is_met(f64::from(k) * 0.01, Pose::new(0.0, 0.0, 0.0), 0.0);
         // 31 and 60 are the first and last step within the second from 1 to 2.
         let moments: Vec<u32> = (0..300).filter(|k| met(*k)).collect();
-        assert_eq!((moments.first(), moments.last()), (Some(&102), Some(&198)), "{moments:?}");
+        assert_eq!(
+            (moments.first(), moments.last()),
+            (Some(&102), Some(&198)),
+            "{moments:?}"
+        );
         assert!(!met(104) && met(105) || met(106), "{moments:?}");
         assert_eq!(moments.len(), 30);
     }

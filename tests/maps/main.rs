@@ -4,5 +4,6 @@
 //! beside the workspace in `../shared/maps`. Without them the tests say so and pass, unless
 //! `CORRIDOR_REQUIRE_MAPS` is set.
 
+mod commonroad;
 mod opendrive;
 mod support;

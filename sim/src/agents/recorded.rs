@@ -50,19 +50,28 @@ impl Recording {
         (self.pose, self.velocity)
     }
 
-    /// Poses from now on at these times, as far as the record goes: in a recorded scene that is what observers
-    /// expect. Nothing of who is not there.
+    /// Poses from now on at these times: in a recorded scene observers expect what the record says, and beyond its
+    /// end that one goes on as before, since nobody expects another to vanish. Nothing of who is not there.
     pub(super) fn predict(&self, times: impl Iterator<Item = f64>) -> Vec<PredictedPose> {
+        let Some(last) = self
+            .states
+            .last()
+            .filter(|_| self.at(self.passed, self.time).is_some())
+        else {
+            return Vec::new();
+        };
         let mut passed = self.passed;
-        let mut poses = Vec::new();
-        for t in times {
-            while self.states.get(passed).is_some_and(|next| next.t <= self.time + t) {
+        let mut expected = |t: f64| {
+            let time = self.time + t;
+            while self.states.get(passed).is_some_and(|next| next.t <= time) {
                 passed += 1;
             }
-            let Some((pose, _)) = self.at(passed, self.time + t) else { break };
-            poses.push(PredictedPose { t, pose });
-        }
-        poses
+            match self.at(passed, time) {
+                Some((pose, _)) => pose,
+                None => last.pose.advanced(last.speed * (time - last.t)),
+            }
+        };
+        times.map(|t| PredictedPose { t, pose: expected(t) }).collect()
     }
 
     /// Pose and velocity at `time`, before which are `passed` states; `None`: not in the scene.
@@ -99,7 +108,11 @@ mod tests {
             pose: Pose::new(x, 0.0, theta),
             speed,
         };
-        Arc::from([state(0.5, 0.0, 3.0, 4.0), state(1.5, 5.0, -3.0, 6.0), state(2.0, 8.0, -3.0, 6.0)])
+        Arc::from([
+            state(0.5, 0.0, 3.0, 4.0),
+            state(1.5, 5.0, -3.0, 6.0),
+            state(2.0, 8.0, -3.0, 6.0),
+        ])
     }
 
     fn at(after: AfterRecord, time: f64) -> (Pose, Vec2) {
@@ -132,13 +145,22 @@ mod tests {
     #[test]
     fn what_is_expected_is_what_comes() {
         let mut recording = Recording::new(&states(), AfterRecord::Leaves);
-        assert!(recording.predict([0.0, 0.5].into_iter()).is_empty(), "nobody sees who is not there");
+        assert!(
+            recording.predict([0.0, 0.5].into_iter()).is_empty(),
+            "nobody sees who is not there"
+        );
         recording.advance(0.5);
         let expected = recording.predict((0..17_u32).map(|k| f64::from(k) * 0.5));
-        assert_eq!(expected.len(), 4, "up to 1.5 s from now");
-        for pose in expected {
+        assert_eq!(expected.len(), 17);
+        for pose in &expected[..4] {
             recording.advance(0.5 + pose.t);
             assert_eq!(recording.motion().0, pose.pose);
         }
+        let (last, later) = (expected[3].pose, expected[5].pose);
+        assert_eq!(
+            later,
+            last.advanced(6.0),
+            "a second beyond the record, at its last speed"
+        );
     }
 }

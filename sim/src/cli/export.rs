@@ -68,7 +68,10 @@ fn drive(scenario: &Scenario, trace: &Trace) -> Vec<DrivenState> {
             steer: 0.0,
         },
     };
-    let end = trace.verdict.as_ref().map_or(f64::INFINITY, |verdict| verdict.duration);
+    let end = trace
+        .verdict
+        .as_ref()
+        .map_or(f64::INFINITY, |verdict| verdict.duration);
     let ticks = trace.ticks.iter().map(|tick| DrivenState {
         t: (tick.frame.time + trace.header.tick).min(end),
         ego: tick.ego,

@@ -41,7 +41,10 @@ impl Run {
         self.export.check(&family)?;
         if family.is_recorded() {
             // What a scene of other people holds is not always what one expects.
-            family.map_warnings().iter().for_each(|warning| output::note(&format!("note: {warning}")));
+            family
+                .map_warnings()
+                .iter()
+                .for_each(|warning| output::note(&format!("note: {warning}")));
         }
         let drawn = family.draw(self.seed)?;
         let verdict = self.run(&family, &drawn.scenario, &settings)?;

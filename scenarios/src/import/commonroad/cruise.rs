@@ -30,28 +30,48 @@ const BEYOND: f64 = 30.0;
 const SHARE: f64 = 0.5;
 
 impl CommonRoad {
-    pub(super) fn cruise(&self, remarks: &mut Remarks, warnings: &mut Vec<String>) -> Result<Scenario, ImportError> {
+    pub(super) fn cruise(
+        &self,
+        remarks: &mut Remarks,
+        warnings: &mut Vec<String>,
+    ) -> Result<Scenario, ImportError> {
         let obstacles = obstacles::obstacles(&self.file, None, remarks);
         let vehicle = vehicle();
         let (id, lane) = self.longest_lane()?;
         let is_free = |pose: &Pose| {
             let footprint = vehicle.footprint(*pose);
             let outlines = obstacles.iter().filter_map(|o| Some(o.shape.at(o.start()?)));
-            outlines.into_iter().all(|outline| outline.distance(&footprint) >= ROOM)
+            outlines
+                .into_iter()
+                .all(|outline| outline.distance(&footprint) >= ROOM)
         };
-        let stations = (1_u32..).map(|k| f64::from(k) * STEP).take_while(|s| *s < lane.length() / 2.0);
-        let mut places = stations.map(|s| (s, lane.at(s))).map(|(s, at)| (s, Pose::new(at.x, at.y, at.theta)));
+        let stations = (1_u32..)
+            .map(|k| f64::from(k) * STEP)
+            .take_while(|s| *s < lane.length() / 2.0);
+        let mut places = stations
+            .map(|s| (s, lane.at(s)))
+            .map(|(s, at)| (s, Pose::new(at.x, at.y, at.theta)));
         let middle = lane.at(lane.length() / 2.0);
         let (s, pose) = places
             .find(|(_, pose)| is_free(pose))
             .unwrap_or((middle.s, Pose::new(middle.x, middle.y, middle.theta)));
-        let way = [Step { lane: id, change: None }];
+        let way = [Step {
+            lane: id,
+            change: None,
+        }];
         let map = self.lengthened(&way, pose.position(), warnings)?;
-        let road = Road::along(&map, &way, pose.position()).map_err(|error| ImportError::NoWay(error.to_string()))?;
+        let road = Road::along(&map, &way, pose.position())
+            .map_err(|error| ImportError::NoWay(error.to_string()))?;
         let limit = lane.at(s).speed_limit;
-        let speed = if limit.is_finite() { limit.min(SPEED) } else { SPEED };
+        let speed = if limit.is_finite() {
+            limit.min(SPEED)
+        } else {
+            SPEED
+        };
         let start = road.line.to_frenet(pose.position()).s;
-        let distance = (SHARE * speed * TIMEOUT).min(road.line.length() - start - BEYOND).max(0.0);
+        let distance = (SHARE * speed * TIMEOUT)
+            .min(road.line.length() - start - BEYOND)
+            .max(0.0);
         Ok(Scenario {
             name: self.file.benchmark.clone(),
             description: format!("CommonRoad `{}`: no planning problem.", self.file.benchmark),

@@ -42,8 +42,15 @@ struct Row {
 impl CommonRoad {
     /// The drive as a solution file of one planning problem.
     pub fn solution(&self, problem: &Problem, drive: &[DrivenState], vehicle: &VehicleParams) -> String {
-        let version = if self.file.version.is_empty() { "2020a" } else { &self.file.version };
-        let benchmark = escaped(&format!("KS{VEHICLE_TYPE}:{COST}:{}:{version}", self.file.benchmark));
+        let version = if self.file.version.is_empty() {
+            "2020a"
+        } else {
+            &self.file.version
+        };
+        let benchmark = escaped(&format!(
+            "KS{VEHICLE_TYPE}:{COST}:{}:{version}",
+            self.file.benchmark
+        ));
         let mut text = format!(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<CommonRoadSolution benchmark_id=\"{benchmark}\">\n  \
              <ksTrajectory planningProblem=\"{}\">\n",
@@ -73,7 +80,9 @@ impl CommonRoad {
         let rows = self.rows(problem, drive, vehicle);
         let obstacle = self.obstacle(id, &rows, vehicle);
         // Obstacles stand before the planning problems.
-        let place = original.find("<planningProblem").or_else(|| original.rfind("</commonRoad"));
+        let place = original
+            .find("<planningProblem")
+            .or_else(|| original.rfind("</commonRoad"));
         let place = place.unwrap_or(original.len());
         let text = format!("{}{obstacle}\n  {}", &original[..place], &original[place..]);
         (text, id)
@@ -82,9 +91,13 @@ impl CommonRoad {
     fn free_id(&self) -> Id {
         let file = &self.file;
         let ids = file.lanelets.iter().map(|l| l.id);
-        let ids = ids.chain(file.signs.iter().map(|s| s.id)).chain(file.lights.iter().map(|l| l.id));
+        let ids = ids
+            .chain(file.signs.iter().map(|s| s.id))
+            .chain(file.lights.iter().map(|l| l.id));
         let ids = ids.chain(file.intersections.iter().map(|i| i.id));
-        let ids = ids.chain(file.obstacles.iter().map(|o| o.id)).chain(file.problems.iter().map(|p| p.id));
+        let ids = ids
+            .chain(file.obstacles.iter().map(|o| o.id))
+            .chain(file.problems.iter().map(|p| p.id));
         // Intersections number their ways in, which are not read; they follow the intersection's own id.
         const BEYOND_PARTS: Id = 1000;
         ids.max().unwrap_or(0).saturating_add(BEYOND_PARTS)
@@ -121,7 +134,10 @@ impl CommonRoad {
         let mut after = 0;
         for step in 0_u32.. {
             let t = f64::from(step) * dt;
-            #[expect(clippy::cast_possible_truncation, reason = "times of files are small whole numbers")]
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "times of files are small whole numbers"
+            )]
             let number = i64::from(step) + first.round() as i64;
             if t > end.t + ON_TIME {
                 if t - dt < end.t - ON_TIME {
@@ -145,7 +161,11 @@ const ON_TIME: f64 = 1e-6;
 
 /// The state at `t` on the straight from one to the other.
 fn between(from: &DrivenState, to: &DrivenState, t: f64) -> EgoState {
-    let part = if to.t - from.t > ON_TIME { ((t - from.t) / (to.t - from.t)).clamp(0.0, 1.0) } else { 1.0 };
+    let part = if to.t - from.t > ON_TIME {
+        ((t - from.t) / (to.t - from.t)).clamp(0.0, 1.0)
+    } else {
+        1.0
+    };
     let mix = |a: f64, b: f64| a + (b - a) * part;
     let (a, b) = (&from.ego, &to.ego);
     let turn = angle::difference(b.pose.theta, a.pose.theta);
@@ -206,7 +226,9 @@ fn state(name: &str, row: &Row) -> String {
 
 /// Text as the value of an attribute.
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -234,10 +256,17 @@ mod tests {
         let text = read.solution(&read.file.problems[0], &drive(), &vehicle());
         assert!(text.contains("benchmark_id=\"KS2:SM1:ZAM_Plain-1_1_T-1:2020a\""));
         // 0.6 s of driving at steps of 0.1 s: places grow by 1 m in 0.15 s.
-        let places: Vec<f64> = text.split("<x>").skip(1).map(|rest| rest.split('<').next().unwrap().parse().unwrap()).collect();
+        let places: Vec<f64> = text
+            .split("<x>")
+            .skip(1)
+            .map(|rest| rest.split('<').next().unwrap().parse().unwrap())
+            .collect();
         assert_eq!(places.len(), 7);
         for (step, place) in (0_u32..).zip(places) {
-            assert!((place - 1.42272 - f64::from(step) / 1.5).abs() < 2e-5, "{step}: {place}");
+            assert!(
+                (place - 1.42272 - f64::from(step) / 1.5).abs() < 2e-5,
+                "{step}: {place}"
+            );
         }
     }
 
@@ -248,7 +277,9 @@ mod tests {
         let back = read(&text).unwrap();
         assert_eq!(back.file.obstacles.len(), original.file.obstacles.len() + 1);
         let ego = back.file.obstacles.iter().find(|o| o.id == id).unwrap();
-        let super::super::data::Prediction::Trajectory(states) = &ego.prediction else { panic!("no trajectory") };
+        let super::super::data::Prediction::Trajectory(states) = &ego.prediction else {
+            panic!("no trajectory")
+        };
         assert_eq!(states.len(), 6);
         assert!(original.file.obstacles.iter().all(|o| o.id != id));
     }

@@ -14,7 +14,10 @@ pub(super) fn region(file: &File, problem: &Problem, remarks: &mut Remarks) -> G
     let first = problem.initial.time.middle();
     let mut goal = |state: &State| GoalState {
         time: seconds(state.time, first, file.time_step),
-        areas: state.position.as_ref().map_or(Vec::new(), |position| areas(file, position, problem.id, remarks)),
+        areas: state
+            .position
+            .as_ref()
+            .map_or(Vec::new(), |position| areas(file, position, problem.id, remarks)),
         heading: state.orientation.map(|range| (range.low, range.high)),
         speed: state.velocity.map(|range| (range.low, range.high)),
     };
@@ -66,6 +69,11 @@ fn area(shape: &super::data::Shape) -> GoalArea {
 /// Everything between the bounds of a lanelet.
 fn surface(lanelet: &Lanelet) -> GoalArea {
     let [left, right] = &lanelet.bounds;
-    let around: Vec<Vec2> = left.points.iter().chain(right.points.iter().rev()).copied().collect();
+    let around: Vec<Vec2> = left
+        .points
+        .iter()
+        .chain(right.points.iter().rev())
+        .copied()
+        .collect();
     GoalArea::Polygon(around)
 }

@@ -49,7 +49,10 @@ fn continuation(lanelet: &Lanelet, number: usize, end: End) -> Option<Lanelet> {
     let ((left_from, left_to), (right_from, right_to)) = (last_pair(left)?, last_pair(right)?);
     let along = (middle(left_to, right_to) - middle(left_from, right_from)).try_normalize(1e-6)?;
     let (left, right) = match end {
-        End::Ahead => (vec![left_to, left_to + along * AHEAD], vec![right_to, right_to + along * AHEAD]),
+        End::Ahead => (
+            vec![left_to, left_to + along * AHEAD],
+            vec![right_to, right_to + along * AHEAD],
+        ),
         End::Behind => (
             vec![left_from - along * BEHIND, left_from],
             vec![right_from - along * BEHIND, right_from],

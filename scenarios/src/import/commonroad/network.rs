@@ -74,8 +74,19 @@ impl Network {
         // What was to be told has been told of the map; additions count as standing where the first lanelet does.
         let text = Lines::new("", "");
         let first = self.elements.iter().take(1).cycle();
-        let elements: Vec<Place> = self.elements.iter().chain(first).copied().take(lanelets.len()).collect();
-        lanelets::build(&lanelets, self.junctions.clone(), &elements, &mut Notes::new(&text))
+        let elements: Vec<Place> = self
+            .elements
+            .iter()
+            .chain(first)
+            .copied()
+            .take(lanelets.len())
+            .collect();
+        lanelets::build(
+            &lanelets,
+            self.junctions.clone(),
+            &elements,
+            &mut Notes::new(&text),
+        )
     }
 }
 
@@ -83,7 +94,8 @@ impl Network {
 fn kind(lanelet: &data::Lanelet) -> LaneKind {
     let is = |word: &str| lanelet.types.iter().any(|known| known == word);
     let users = &lanelet.users;
-    let for_cars = |user: &String| matches!(user.as_str(), "vehicle" | "car" | "motorcycle" | "taxi" | "truck");
+    let for_cars =
+        |user: &String| matches!(user.as_str(), "vehicle" | "car" | "motorcycle" | "taxi" | "truck");
     if is("sidewalk") || is("crosswalk") {
         LaneKind::Sidewalk
     } else if is("bicycleLane") {
@@ -94,7 +106,11 @@ fn kind(lanelet: &data::Lanelet) -> LaneKind {
         LaneKind::Shoulder
     } else if is("parking") {
         LaneKind::Parking
-    } else if is("restricted") || is("busLane") || is("busStop") || (!users.is_empty() && !users.iter().any(for_cars)) {
+    } else if is("restricted")
+        || is("busLane")
+        || is("busStop")
+        || (!users.is_empty() && !users.iter().any(for_cars))
+    {
         LaneKind::Restricted
     } else if is("accessRamp") || is("exitRamp") {
         LaneKind::Ramp

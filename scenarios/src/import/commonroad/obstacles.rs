@@ -17,17 +17,27 @@ const SAME_TIME: f64 = 1e-9;
 const SAME_STATE: (f64, f64, f64) = (0.1, 0.05, 0.5);
 
 /// All obstacles that take part, seen from a vehicle that starts at `start`.
-pub(super) fn obstacles(file: &File, start: Option<&State>, remarks: &mut Remarks) -> Vec<scenario::Obstacle> {
+pub(super) fn obstacles(
+    file: &File,
+    start: Option<&State>,
+    remarks: &mut Remarks,
+) -> Vec<scenario::Obstacle> {
     let step = file.time_step;
     let first = start.map_or(0.0, |state| state.time.middle());
     let mut bodies = Vec::new();
     for obstacle in &file.obstacles {
         if obstacle.role == Role::Phantom {
-            remarks.add("may not be there at all: phantom obstacles are left out", obstacle.id);
+            remarks.add(
+                "may not be there at all: phantom obstacles are left out",
+                obstacle.id,
+            );
             continue;
         }
         if start.is_some_and(|start| is_recording_of(obstacle, start)) {
-            remarks.add("starts as the ego itself: taken for its recording and left out", obstacle.id);
+            remarks.add(
+                "starts as the ego itself: taken for its recording and left out",
+                obstacle.id,
+            );
             continue;
         }
         let behaviour = behaviour(obstacle, first, step, remarks);
@@ -54,7 +64,10 @@ fn name(id: Id, piece: usize) -> String {
 
 fn pieces(obstacle: &Obstacle, remarks: &mut Remarks) -> Vec<ConvexPolygon> {
     if obstacle.shape.len() > 1 {
-        remarks.add("has an outline of several shapes: each becomes a body", obstacle.id);
+        remarks.add(
+            "has an outline of several shapes: each becomes a body",
+            obstacle.id,
+        );
     }
     let mut pieces = Vec::new();
     for shape in &obstacle.shape {
@@ -63,7 +76,10 @@ fn pieces(obstacle: &Obstacle, remarks: &mut Remarks) -> Vec<ConvexPolygon> {
             continue;
         };
         if is_larger {
-            remarks.add("has an outline that is not convex: its hull is taken", obstacle.id);
+            remarks.add(
+                "has an outline that is not convex: its hull is taken",
+                obstacle.id,
+            );
         }
         pieces.push(piece);
     }
@@ -82,7 +98,11 @@ fn kind(obstacle: &Obstacle) -> ObstacleKind {
 
 /// Whether a moving obstacle is the vehicle of the planning problem, as it was when the scene was recorded.
 fn is_recording_of(obstacle: &Obstacle, start: &State) -> bool {
-    let Some(initial) = obstacle.initial.as_ref().filter(|_| obstacle.role == Role::Dynamic) else {
+    let Some(initial) = obstacle
+        .initial
+        .as_ref()
+        .filter(|_| obstacle.role == Role::Dynamic)
+    else {
         return false;
     };
     let place = |state: &State| place(state.position.as_ref());
@@ -112,10 +132,15 @@ fn behaviour(obstacle: &Obstacle, first: f64, step: f64, remarks: &mut Remarks) 
         Prediction::Trajectory(states) => draft.extend(states.iter().filter_map(|state| self::draft(state))),
         Prediction::Occupancy(sets) => {
             remarks.add("has occupancy sets: it drives through their middles", id);
-            draft.extend(sets.iter().filter_map(|(time, shapes)| middle_of(time.middle(), shapes)));
+            draft.extend(
+                sets.iter()
+                    .filter_map(|(time, shapes)| middle_of(time.middle(), shapes)),
+            );
         }
     }
-    let states = record(draft, first, step, || remarks.add("has states out of order: put in order", id));
+    let states = record(draft, first, step, || {
+        remarks.add("has states out of order: put in order", id)
+    });
     match states[..] {
         [] => {
             remarks.add("has no state with a place: it stands at the origin", id);

@@ -25,7 +25,11 @@ const BELOW: f64 = 0.3;
 /// middle of all lanes is in the lanes it lies on.
 pub(super) fn stretches(map: &RoadMap, goal: &GoalRegion) -> BTreeMap<LaneId, (f64, f64)> {
     let mut found = BTreeMap::new();
-    let placed: Vec<&GoalState> = goal.alternatives.iter().filter(|goal| !goal.areas.is_empty()).collect();
+    let placed: Vec<&GoalState> = goal
+        .alternatives
+        .iter()
+        .filter(|goal| !goal.areas.is_empty())
+        .collect();
     for (id, lane) in (0..).map(LaneId).zip(map.lanes()) {
         let is_in = |point: Vec2| placed.iter().any(|goal| goal.is_in_place(point));
         let mut inside = lane.points.iter().filter(|p| is_in(p.offset(0.0))).map(|p| p.s);
@@ -69,8 +73,10 @@ impl Pace<'_> {
             if early > 0.0 {
                 speed = speed.min(far.max(0.0) / early);
             }
-            let in_time = (IN_TIME.0 * late - IN_TIME.1).max(early);
-            speed = speed.max(speed_to_cover(near, in_time, now, self.acceleration));
+            if near > now * late {
+                let in_time = (IN_TIME.0 * late - IN_TIME.1).max(early);
+                speed = speed_to_cover(near, in_time, now, self.acceleration);
+            }
         }
         if let Some((low, high)) = goal.speed {
             speed = speed.min(high - BELOW).max(low);
@@ -116,15 +122,26 @@ mod tests {
     /// The oracle drives: small steps of accelerating up to the speed and keeping it.
     #[test]
     fn the_speed_covers_the_distance_in_the_time() {
-        for (distance, time, now) in [(45.0, 10.0, 0.0), (60.0, 5.0, 10.0), (30.0, 6.0, 8.0), (5.0, 1.0, 4.0)] {
+        for (distance, time, now) in [
+            (45.0, 10.0, 0.0),
+            (60.0, 5.0, 10.0),
+            (30.0, 6.0, 8.0),
+            (5.0, 1.0, 4.0),
+        ] {
             let wanted = speed_to_cover(distance, time, now, 2.0);
             let (mut way, mut v) = (0.0, if wanted < now { wanted } else { now });
             for _ in 0..100_000 {
                 v = f64::min(v + 2.0 * time * 1e-5, wanted.max(v));
                 way += v * time * 1e-5;
             }
-            assert!((way - distance).abs() < 0.01, "{distance} in {time}: {way} at {wanted}");
+            assert!(
+                (way - distance).abs() < 0.01,
+                "{distance} in {time}: {way} at {wanted}"
+            );
         }
-        assert!((speed_to_cover(1000.0, 2.0, 3.0, 2.0) - 7.0).abs() < 1e-12, "as fast as it gets");
+        assert!(
+            (speed_to_cover(1000.0, 2.0, 3.0, 2.0) - 7.0).abs() < 1e-12,
+            "as fast as it gets"
+        );
     }
 }

@@ -47,7 +47,11 @@ pub(super) fn lanes_of(map: &RoadMap, pose: corridor_decider::geometry::Pose) ->
 /// Station of the cross-section of `lane` that is nearest to a point, m.
 pub(super) fn station(map: &RoadMap, lane: LaneId, point: corridor_decider::geometry::Vec2) -> f64 {
     let distance = |p: &corridor_decider::road::LanePoint| libm::hypot(p.x - point.x, p.y - point.y);
-    let nearest = map.lane(lane).points.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let nearest = map
+        .lane(lane)
+        .points
+        .iter()
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)));
     nearest.map_or(0.0, |p| p.s)
 }
 
@@ -86,12 +90,16 @@ pub(super) fn find(map: &RoadMap, starts: &[LaneId], is_goal: impl Fn(LaneId) ->
 /// Where one can go on from a lane.
 fn steps(map: &RoadMap, lane: LaneId) -> impl Iterator<Item = (LaneId, Option<Side>)> + '_ {
     let ahead = map.lane(lane).successors.iter().copied();
-    let ahead = ahead.filter(move |next| joins(map, lane, *next)).map(|next| (next, None));
+    let ahead = ahead
+        .filter(move |next| joins(map, lane, *next))
+        .map(|next| (next, None));
     let beside = [Side::Left, Side::Right].into_iter().filter_map(move |side| {
         let neighbour = map.neighbour(lane, Neighbour { side, reverse: false })?;
         Some((neighbour, Some(side)))
     });
-    ahead.chain(beside).filter(|(next, _)| map.lane(*next).kind.is_drivable())
+    ahead
+        .chain(beside)
+        .filter(|(next, _)| map.lane(*next).kind.is_drivable())
 }
 
 #[expect(

@@ -88,7 +88,10 @@ impl CommonRoad {
         };
         let starts = route::lanes_of(&self.map, center);
         if starts.is_empty() {
-            return Err(no_way(format!("starts at ({:.1}, {:.1}), away from all lanes", center.x, center.y)));
+            return Err(no_way(format!(
+                "starts at ({:.1}, {:.1}), away from all lanes",
+                center.x, center.y
+            )));
         }
         let stretches = pace::stretches(&self.map, &goal);
         let ids: Vec<LaneId> = starts.iter().map(|(lane, _)| *lane).collect();
@@ -100,11 +103,17 @@ impl CommonRoad {
             if goal.has_place() {
                 warnings.push(format!("`{}`: no way leads to the goal: straight on", problem.id));
             }
-            vec![Step { lane: ids[0], change: None }]
+            vec![Step {
+                lane: ids[0],
+                change: None,
+            }]
         });
         let changes = way.iter().filter(|step| step.change.is_some()).count();
         if changes > 1 {
-            warnings.push(format!("`{}`: the goal is {changes} lanes aside: the first change is asked for", problem.id));
+            warnings.push(format!(
+                "`{}`: the goal is {changes} lanes aside: the first change is asked for",
+                problem.id
+            ));
         }
         let map = self.lengthened(&way, center.position(), warnings)?;
         let road = Road::along(&map, &way, center.position()).map_err(|error| no_way(error.to_string()))?;
@@ -124,7 +133,10 @@ impl CommonRoad {
         warn_of_overlaps(&vehicle, ego.pose, &obstacles, warnings);
         Ok(Scenario {
             name: self.file.benchmark.clone(),
-            description: format!("CommonRoad `{}`, planning problem {}.", self.file.benchmark, problem.id),
+            description: format!(
+                "CommonRoad `{}`, planning problem {}.",
+                self.file.benchmark, problem.id
+            ),
             seed: 0,
             map,
             command: road.change.map_or(Command::Cruise, Command::ChangeLane),
@@ -148,9 +160,14 @@ impl CommonRoad {
         start: Vec2,
         warnings: &mut Vec<String>,
     ) -> Result<Arc<RoadMap>, ImportError> {
-        let parts = way.split(|step| step.change.is_some()).filter(|part| !part.is_empty());
+        let parts = way
+            .split(|step| step.change.is_some())
+            .filter(|part| !part.is_empty());
         let mut ends = Vec::new();
-        let after_changes = way.iter().filter(|step| step.change.is_some()).map(|step| step.lane);
+        let after_changes = way
+            .iter()
+            .filter(|step| step.change.is_some())
+            .map(|step| step.lane);
         let own = parts.map(|part| part[part.len() - 1].lane);
         for last in own.chain(after_changes) {
             let lanes = straight_on(&self.map, last, BEYOND_GOAL);
@@ -189,7 +206,9 @@ pub(super) fn to_middle(vehicle: &VehicleParams) -> f64 {
 fn warn_of_overlaps(vehicle: &VehicleParams, ego: Pose, obstacles: &[Obstacle], warnings: &mut Vec<String>) {
     let footprint = vehicle.footprint(ego);
     for obstacle in obstacles {
-        let is_hit = obstacle.start().is_some_and(|pose| obstacle.shape.at(pose).overlaps(&footprint));
+        let is_hit = obstacle
+            .start()
+            .is_some_and(|pose| obstacle.shape.at(pose).overlaps(&footprint));
         if is_hit {
             warnings.push(format!("the ego starts inside of `{}`", obstacle.name));
         }
@@ -208,7 +227,10 @@ impl Road {
     /// The line of the lanes up to the first change and straight on, and the one of the lanes after it.
     pub(super) fn along(map: &RoadMap, way: &[Step], start: Vec2) -> Result<Self, LineError> {
         let first_change = way.iter().position(|step| step.change.is_some());
-        let own: Vec<LaneId> = way[..first_change.unwrap_or(way.len())].iter().map(|step| step.lane).collect();
+        let own: Vec<LaneId> = way[..first_change.unwrap_or(way.len())]
+            .iter()
+            .map(|step| step.lane)
+            .collect();
         let route = extended(map, own.clone(), start);
         let line = Arc::new(ReferenceLine::along(map, &route)?);
         let Some((at, side)) = first_change.and_then(|at| Some((at, way[at].change?))) else {
@@ -246,7 +268,9 @@ fn extended(map: &RoadMap, mut lanes: Vec<LaneId>, start: Vec2) -> Vec<LaneId> {
     if route::station(map, first, start) < BEHIND {
         let behind = map.lane(first).predecessors.iter().copied();
         let drivable = |lane: &LaneId| {
-            map.lane(*lane).kind.is_drivable() && !lanes.contains(lane) && crate::route::joins(map, *lane, first)
+            map.lane(*lane).kind.is_drivable()
+                && !lanes.contains(lane)
+                && crate::route::joins(map, *lane, first)
         };
         if let Some(before) = behind.filter(drivable).min() {
             lanes.insert(0, before);

@@ -48,7 +48,10 @@ fn is_convex(corners: &[Vec2]) -> bool {
         let (a, b, c) = (corners[k], next(k), next(k + 1));
         cross(b - a, c - b)
     };
-    let turns: Vec<f64> = (0..corners.len()).map(turn).filter(|turn| turn.abs() > 1e-9).collect();
+    let turns: Vec<f64> = (0..corners.len())
+        .map(turn)
+        .filter(|turn| turn.abs() > 1e-9)
+        .collect();
     let same_way = turns.iter().all(|turn| *turn > 0.0) || turns.iter().all(|turn| *turn < 0.0);
     same_way && !winds_twice(corners)
 }
@@ -94,9 +97,21 @@ mod tests {
     fn only_what_is_not_convex_becomes_larger() {
         let square = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)];
         let turned: Vec<(f64, f64)> = square.iter().rev().copied().collect();
-        let corner = [(0.0, 0.0), (4.0, 0.0), (4.0, 1.0), (1.0, 1.0), (1.0, 4.0), (0.0, 4.0)];
+        let corner = [
+            (0.0, 0.0),
+            (4.0, 0.0),
+            (4.0, 1.0),
+            (1.0, 1.0),
+            (1.0, 4.0),
+            (0.0, 4.0),
+        ];
         let star = [(0.0, 3.0), (1.8, -2.4), (-2.9, 0.9), (2.9, 0.9), (-1.8, -2.4)];
-        for (corners, larger) in [(&square[..], false), (&turned, false), (&corner, true), (&star, true)] {
+        for (corners, larger) in [
+            (&square[..], false),
+            (&turned, false),
+            (&corner, true),
+            (&star, true),
+        ] {
             assert_eq!(convex(&polygon(corners)).unwrap().1, larger, "{corners:?}");
         }
         assert!(convex(&polygon(&[(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)])).is_none());

@@ -111,7 +111,9 @@ fn prediction(element: Element<'_>) -> Result<Prediction, ImportError> {
         Ok((time, values::shapes(element.required_child("shape")?)?))
     };
     let occupancies = set.children("occupancy").map(occupancy);
-    Ok(Prediction::Occupancy(occupancies.collect::<Result<_, ImportError>>()?))
+    Ok(Prediction::Occupancy(
+        occupancies.collect::<Result<_, ImportError>>()?,
+    ))
 }
 
 fn problem(element: Element<'_>) -> Result<Problem, ImportError> {

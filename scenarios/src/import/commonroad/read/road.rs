@@ -30,9 +30,11 @@ fn lanelet(element: Element<'_>, notes: &mut Notes<'_>) -> Result<Lanelet, Impor
         bound(element.required_child("rightBound")?)?,
     ];
     if bounds[0].points.len() != bounds[1].points.len() {
-        notes.add("has bounds of different numbers of points", element.place(), || {
-            format!("lanelet {id}")
-        });
+        notes.add(
+            "has bounds of different numbers of points",
+            element.place(),
+            || format!("lanelet {id}"),
+        );
     }
     let words = |names: [&'static str; 2]| {
         let named = names.into_iter().flat_map(|name| element.children(name));
@@ -43,7 +45,10 @@ fn lanelet(element: Element<'_>, notes: &mut Notes<'_>) -> Result<Lanelet, Impor
         bounds,
         predecessors: values::references(element, "predecessor")?,
         successors: values::references(element, "successor")?,
-        adjacent: [adjacent(element, "adjacentLeft")?, adjacent(element, "adjacentRight")?],
+        adjacent: [
+            adjacent(element, "adjacentLeft")?,
+            adjacent(element, "adjacentRight")?,
+        ],
         speed_limit: element.child("speedLimit").map(values::number).transpose()?,
         types: words(["laneletType", "type"]),
         users: words(["userOneWay", "userBidirectional"]),
@@ -102,7 +107,9 @@ pub(super) fn lights(root: Element<'_>) -> Result<Vec<Light>, ImportError> {
         Ok((color.to_owned(), duration))
     };
     let light = |element: Element<'_>| {
-        let cycle = element.child("cycle").or_else(|| element.child("trafficLightCycle"));
+        let cycle = element
+            .child("cycle")
+            .or_else(|| element.child("trafficLightCycle"));
         let phases = cycle.into_iter().flat_map(|cycle| cycle.children("cycleElement"));
         let offset = cycle.and_then(|cycle| cycle.child("timeOffset"));
         Ok(Light {

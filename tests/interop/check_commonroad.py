@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Holds verdicts on CommonRoad scenarios against the project's own commonroad-drivability-checker.
 
-    tests/interop/commonroad.py CORRIDOR FOLDER [--environment FOLDER]
+    tests/interop/check_commonroad.py CORRIDOR FOLDER [--environment FOLDER]
 
 runs the program CORRIDOR on every file of FOLDER that has a planning problem, lets it write its drive as a CommonRoad
 solution, and asks the checker whether that drive collides and whether it reaches the goal. Both must agree. Whether the
-drive is one of the kinematic single-track model and stays between the lanelets is only reported: the car here has tyres.
+drive is one of the kinematic single-track model is only reported: the car here has tyres. Whether it stays between the
+lanelets is not asked: that needs a package that is not free.
 
 Needs Python 3.10 and, for the first run, PyPI: the checker goes into a virtual environment, a temporary one unless named.
 Exit code: 0 all agree, 1 some do not, 2 it could not be tried.
@@ -20,7 +21,8 @@ import sys
 import tempfile
 import venv
 
-PACKAGE = "commonroad-drivability-checker==2025.4.0"
+# The checker of this version does not know the reader's newer layout.
+PACKAGES = ["commonroad-drivability-checker==2025.4.0", "commonroad-io<2026"]
 INSIDE = "CORRIDOR_INTEROP_INSIDE"
 
 
@@ -29,11 +31,11 @@ def enter(environment: pathlib.Path) -> int:
     python = environment / "bin" / "python"
     if not python.exists():
         venv.create(environment, with_pip=True)
-    found = subprocess.run([python, "-c", "import commonroad_dc"], capture_output=True, check=False)
+    found = subprocess.run([python, "-c", "import commonroad_dc.feasibility.solution_checker"], capture_output=True, check=False)
     if found.returncode != 0:
-        installed = subprocess.run([python, "-m", "pip", "install", "--quiet", PACKAGE], check=False)
+        installed = subprocess.run([python, "-m", "pip", "install", "--quiet", *PACKAGES], check=False)
         if installed.returncode != 0:
-            print(f"cannot install {PACKAGE}", file=sys.stderr)
+            print(f"cannot install {PACKAGES}", file=sys.stderr)
             return 2
     return subprocess.run([python, *sys.argv], env={**os.environ, INSIDE: "1"}, check=False).returncode
 
@@ -71,13 +73,12 @@ def judge(file: pathlib.Path, solution: pathlib.Path) -> dict:
     collides = holds(checker.obstacle_collision, scenario, problems, driven) is not False
     reaches = holds(checker.goal_reached, scenario, problems, driven) is True
     starts = holds(checker.starts_at_correct_state, driven, problems) is True
-    leaves = holds(checker.boundary_collision, scenario, problems, driven) is not False
     try:
         results = checker.solution_feasible(driven, scenario.dt, problems)
         feasible = all(result[0] for result in results.values())
     except checker.SolutionCheckerException:
         feasible = False
-    return {"collides": collides, "reaches": reaches, "starts": starts, "leaves": leaves, "feasible": feasible}
+    return {"collides": collides, "reaches": reaches, "starts": starts, "feasible": feasible}
 
 
 def compare(program: str, folder: pathlib.Path) -> int:
@@ -91,7 +92,9 @@ def compare(program: str, folder: pathlib.Path) -> int:
             solution = pathlib.Path(scratch) / file.name
             ours = drive(program, file, solution)
             theirs = judge(file, solution)
-            agrees = all(ours[key] == theirs[key] for key in ("collides", "reaches")) and theirs["starts"]
+            # A collision ends a run here: what would have come after it is not known.
+            reaches = ours["collides"] or ours["reaches"] == theirs["reaches"]
+            agrees = ours["collides"] == theirs["collides"] and reaches and theirs["starts"]
             disagreeing += not agrees
             word = "agrees    " if agrees else "DISAGREES "
             told = ", ".join(f"{key} {value}" for key, value in theirs.items())
