@@ -126,7 +126,8 @@ fn a_limit_may_hang_on_a_sign_and_a_parked_car_stand_askew() {
     let Some(read) = load("DEU_Test-1_1_T-1") else {
         return;
     };
-    assert_near(named(&read.map, "1").at(10.0).speed_limit, 16.67, 0.01);
+    assert_near(named(&read.map, "3").at(10.0).speed_limit, 16.67, 0.01);
+    assert!(named(&read.map, "1").at(10.0).speed_limit.is_infinite(), "the sign stands before the next lanelet");
     let (scenario, _) = scene(&read);
     let parked = scenario.obstacles.iter().find_map(|o| match o.behaviour {
         Behaviour::Parked(pose) => Some((pose, o.kind)),
