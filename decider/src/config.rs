@@ -25,6 +25,7 @@ impl Config {
     pub fn apollo() -> Self {
         Self {
             path_bounds: PathBoundsConfig::apollo(),
+            lane_borrow: LaneBorrowConfig::apollo(),
             path: PathConfig {
                 corner_collision_check: true,
                 ..PathConfig::default()

@@ -42,6 +42,7 @@ pub const ENTRIES: &[Entry] = &[
     own!("blocked_both_lanes"),
     own!("blocked_sweep"),
     own!("bollard_between_walls"),
+    own!("bollards_askew"),
     own!("borrow_with_column"),
     own!("borrow_with_oncoming"),
     own!("cone_gate"),

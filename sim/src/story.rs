@@ -70,7 +70,9 @@ impl Story {
         if let Some(ending) = ending.filter(|_| !self.is_over) {
             self.is_over = true;
             let kind = match ending {
-                Ending::Collision | Ending::Timeout | Ending::DeciderFailed => EventKind::Note,
+                Ending::PulledOverBadly | Ending::Collision | Ending::Timeout | Ending::DeciderFailed => {
+                    EventKind::Note
+                }
                 _ => EventKind::Arrived,
             };
             texts.push((kind, format!("the run is over: {}", ending_words(ending))));

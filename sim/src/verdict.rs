@@ -37,6 +37,8 @@ pub enum Ending {
     Refused,
     /// The ego stands behind something that cannot be passed, as it had to.
     StoodStill,
+    /// The ego stands at the road's edge, but not where and as it should.
+    PulledOverBadly,
     /// Two bodies overlapped.
     Collision,
     /// The time ran out before the expected end.

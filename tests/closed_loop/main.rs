@@ -8,4 +8,5 @@ mod catalog;
 mod failing;
 mod order;
 mod repeat;
+mod smoothness;
 mod support;

@@ -1,12 +1,11 @@
 //! Planted faults: seeds that pass with the decider as it is must fail with a broken one. A testbed that stays green
 //! with a broken decider is broken itself.
 //!
-//! Not every unsafe switch can be seen in a closed loop, because a later layer covers for it:
-//! * `pad_through_blocker` extends a bound through its blocker, but the blocker stays named, so the speed layer stops
-//!   for it, and the path ends anyway where the footprint would touch something.
-//! * `corner_collision_check` misses what is thinner than the car, but only the fallback bound can lead over such a
-//!   thing, and only with `fallback_ignores_obstacles`: the two are planted together below.
-//! * `crosses_double_yellow` is met by the lane-borrow decider, which asks for a line that may be crossed itself.
+//! Where a later layer covers for a fault, the monitor judges the earlier answer itself: the decided bound by
+//! `bound_obstacle_clearance` and `missed_block`, the path by `path_obstacle_clearance`, whatever the car then does.
+//!
+//! One switch cannot be seen: `crosses_double_yellow` is met by the lane-borrow decider, which asks for a line that
+//! may be crossed itself.
 
 use corridor_scenarios::{MapCache, catalog};
 use corridor_sim::run::run;
@@ -59,6 +58,17 @@ fn collisions(verdicts: &[Verdict]) -> usize {
         .count()
 }
 
+/// How many of the verdicts fail a gate of this name.
+fn failing(verdicts: &[Verdict], name: &str) -> usize {
+    let fails = |verdict: &&Verdict| {
+        verdict
+            .metrics
+            .iter()
+            .any(|metric| metric.name == name && metric.gate && !metric.pass)
+    };
+    verdicts.iter().filter(fails).count()
+}
+
 /// It takes the first cone on its right and finds no room; the way left of both stays unused.
 #[test]
 fn greedy_sides_stop_before_an_open_way() {
@@ -78,16 +88,49 @@ fn obstacles_without_a_buffer_are_not_passed() {
     caught("cone_gate", 3..=7, &fault, 1);
 }
 
+/// Where the road leaves room they are passed, and touched by the bound: the car is let as near as it fits.
+#[test]
+fn a_bound_without_a_buffer_touches_what_it_passes() {
+    let fault = ["decider.path_bounds.obstacle_lat_buffer=0"];
+    let failed = caught("off_centre_beside_parked", 1..=6, &fault, 5);
+    assert!(failing(&failed, "bound_obstacle_clearance") >= 5);
+}
+
 #[test]
 fn a_mirrored_world_is_driven_into() {
     let failed = caught("blocked_sweep", 2..=5, &["fault=mirrored"], 3);
     assert!(collisions(&failed) >= 3);
+    assert!(failing(&failed, "bound_obstacle_clearance") >= 3);
+}
+
+/// The speed layer stops for the blocker all the same; the bound says that the car may be inside it.
+#[test]
+fn a_bound_padded_through_its_blocker_is_wrong_by_itself() {
+    let fault = ["decider.path_bounds.quirks.pad_through_blocker=true"];
+    for (scenario, seeds) in [
+        ("two_cones", 1..=4),
+        ("straight_blocked", 1..=4),
+        ("bollard_between_walls", 1..=4),
+    ] {
+        let failed = caught(scenario, seeds, &fault, 4);
+        assert_eq!(failing(&failed, "bound_obstacle_clearance"), 4, "{scenario}");
+        assert_eq!(collisions(&failed), 0, "{scenario}");
+    }
+}
+
+/// Turning between two bollards, the side of the body passes over one that no corner meets.
+#[test]
+fn a_path_checked_at_its_corners_leads_over_a_bollard() {
+    let failed = caught("bollards_askew", 1..=12, &[CORNERS], 6);
+    assert!(failing(&failed, "path_obstacle_clearance") >= 6);
 }
 
 /// Too near to the bollard for any bound that knows it, the fallback leads on.
 #[test]
 fn a_fallback_that_ignores_obstacles_creeps_on() {
-    caught("bollard_between_walls", 1..=8, &[FALLBACK], 3);
+    let failed = caught("bollard_between_walls", 1..=8, &[FALLBACK], 3);
+    assert!(failing(&failed, "bound_obstacle_clearance") >= 3);
+    assert!(failing(&failed, "missed_block") >= 3);
 }
 
 /// With nothing but the corners checked against it, the path leads over the bollard.

@@ -30,6 +30,8 @@ pub(super) struct Choice {
     pub own_lane_is_blocked: Option<bool>,
     /// Whether traffic leaves time to go out of the lane, if that was asked.
     pub is_free_to_borrow: Option<bool>,
+    /// Whether a borrowed lane leads past what blocks the own one, be it free or not, if that was looked at.
+    pub borrow_leads_on: Option<bool>,
 }
 
 /// Looks at the bounds in order of preference until one is good.
@@ -39,6 +41,7 @@ pub(super) fn choose(scene: &Scene, table: &LineTable, bounds: &PathBounds, cont
         assessments: vec![Assessment::NotTried; bounds.bounds.len()],
         own_lane_is_blocked: None,
         is_free_to_borrow: None,
+        borrow_leads_on: None,
     };
     let mut blocked_own: Option<(usize, Path)> = None;
     let is_out = passing::overhang(scene) > OUT_OF_LANE && !context.borrow.sides.is_empty();
@@ -49,6 +52,8 @@ pub(super) fn choose(scene: &Scene, table: &LineTable, bounds: &PathBounds, cont
             Err(rejection) => {
                 if is_own_lane(bound.label) {
                     choice.own_lane_is_blocked = Some(true);
+                } else if is_borrowed(bound.label) {
+                    choice.borrow_leads_on.get_or_insert(false);
                 }
                 choice.assessments[place] = rejected(rejection);
                 continue;
@@ -60,6 +65,10 @@ pub(super) fn choose(scene: &Scene, table: &LineTable, bounds: &PathBounds, cont
         }
         if bound.label == Label::Fallback && blocked_own.is_some() {
             break;
+        }
+        if is_borrowed(bound.label) {
+            let leads_on = leads_on(scene, &path, blocked_own.as_ref());
+            choice.borrow_leads_on = Some(leads_on || choice.borrow_leads_on == Some(true));
         }
         match verdict(scene, context, bound, &path, blocked_own.as_ref()) {
             Verdict::Take => {
@@ -91,11 +100,12 @@ fn find_path(
     context: &Context,
 ) -> Result<Path, Rejection> {
     let goal = goal(scene, context, bound.label);
-    let new = path::plan(scene, table, bound, goal);
+    let last = context.path.as_ref().filter(|last| last.label == bound.label);
+    let on = last.filter(|last| path::is_on(scene, &last.points));
+    let new = path::plan(scene, table, bound, goal, on.map(|last| &last.points[..]));
     if new.as_ref().is_ok_and(|path| path.serves(goal)) {
         return new;
     }
-    let last = context.path.as_ref().filter(|last| last.label == bound.label);
     let old = last.and_then(|last| path::reuse(scene, &last.points));
     match old
         .map(|path| path::finish(path, bound))
@@ -137,9 +147,7 @@ fn verdict(
             borrow: Borrow::Left | Borrow::Right,
             ..
         } => {
-            let own_reach = blocked_own.map_or(0.0, |(_, own)| own.length());
-            let leads_on = path.length() >= own_reach + WORTH_BORROWING && passing::leads_back(scene, path);
-            if !leads_on && passing::overhang(scene) <= passing::COMMITTED {
+            if !leads_on(scene, path, blocked_own) && passing::overhang(scene) <= passing::COMMITTED {
                 return Verdict::Leave(Assessment::Drivable { reach: path.length() });
             }
             match passing::occupant(scene, path) {
@@ -152,17 +160,14 @@ fn verdict(
     }
 }
 
+/// Whether a path through a borrowed lane is worth going out for.
+fn leads_on(scene: &Scene, path: &Path, blocked_own: Option<&(usize, Path)>) -> bool {
+    let own_reach = blocked_own.map_or(0.0, |(_, own)| own.length());
+    path.length() >= own_reach + WORTH_BORROWING && passing::leads_back(scene, path)
+}
+
 /// Whether a gap in the traffic has been there for long enough, or there is no traffic, or the car is on its way.
 fn is_sure(scene: &Scene, context: &Context) -> bool {
-    let is_borrowed = |label| {
-        matches!(
-            label,
-            Label::Regular {
-                borrow: Borrow::Left | Borrow::Right,
-                ..
-            }
-        )
-    };
     let on_the_way = context.path.as_ref().is_some_and(|last| is_borrowed(last.label));
     on_the_way || scene.moving.is_empty() || context.borrow.free_cycles >= lane_borrow::FREE_CYCLES
 }
@@ -185,6 +190,16 @@ fn in_order(bounds: &[PathBound], is_out: bool) -> Vec<usize> {
     let mut places: Vec<usize> = (0..bounds.len()).collect();
     places.sort_by_key(|place| rank(bounds[*place].label));
     places
+}
+
+fn is_borrowed(label: Label) -> bool {
+    matches!(
+        label,
+        Label::Regular {
+            borrow: Borrow::Left | Borrow::Right,
+            ..
+        }
+    )
 }
 
 fn is_own_lane(label: Label) -> bool {

@@ -137,12 +137,14 @@ fn drive(scene: &Scene, context: &mut Context, bounds: PathBounds, choice: Choic
         label,
         points: path.points.clone(),
     });
-    let planned = speed::plan(
-        scene,
-        &path,
-        pull_over_stop(scene, context, label, &path),
-        context.stop,
-    );
+    let purpose = speed::Purpose {
+        stop_at: pull_over_stop(scene, context, label, &path),
+        before: context.stop,
+        may_pull_out: choice
+            .borrow_leads_on
+            .unwrap_or_else(|| lane_borrow::is_permitted(scene)),
+    };
+    let planned = speed::plan(scene, &path, purpose);
     context.stop = planned.stop;
     let place = context
         .bounds

@@ -17,6 +17,9 @@ pub struct LaneBorrowConfig {
     pub allow_lane_borrowing: bool,
     /// Not faster than this, m/s.
     pub lane_borrow_max_speed: f64,
+    /// Not faster than this where nobody else moves, m/s: there is no gap in the traffic to judge, and who slows
+    /// down first only takes longer.
+    pub lane_borrow_max_speed_alone: f64,
     /// How many ticks the own lane must have been blocked.
     pub long_term_blocking_obstacle_cycle_threshold: u32,
     /// How many ticks the own lane must have been usable to give the borrowed one back.
@@ -28,8 +31,20 @@ impl Default for LaneBorrowConfig {
         Self {
             allow_lane_borrowing: true,
             lane_borrow_max_speed: 5.0,
+            lane_borrow_max_speed_alone: 20.0,
             long_term_blocking_obstacle_cycle_threshold: 3,
             usable_self_lane_cycle_threshold: 6,
+        }
+    }
+}
+
+impl LaneBorrowConfig {
+    /// The original as shipped.
+    pub fn apollo() -> Self {
+        let config = Self::default();
+        Self {
+            lane_borrow_max_speed_alone: config.lane_borrow_max_speed,
+            ..config
         }
     }
 }
@@ -61,16 +76,32 @@ pub fn decide(scene: &Scene, state: &mut BorrowState) -> Vec<Borrow> {
         state.sides.clear();
     }
     let waited = state.blocked_cycles >= config.long_term_blocking_obstacle_cycle_threshold;
+    let max_speed = if scene.moving.is_empty() {
+        config.lane_borrow_max_speed_alone
+    } else {
+        config.lane_borrow_max_speed
+    };
     let may_begin = config.allow_lane_borrowing
         && !scene.is_change_lane
         && scene.frame.lines.len() == 1
         && waited
-        && scene.start.v < config.lane_borrow_max_speed;
+        && scene.start.v < max_speed;
     if state.sides.is_empty() && may_begin {
         state.sides = crossable_sides(scene);
         state.usable_cycles = 0;
     }
     state.sides.clone()
+}
+
+/// Whether a neighbouring lane may be borrowed here at all, if not now.
+pub fn is_permitted(scene: &Scene) -> bool {
+    let has_neighbour = scene
+        .line
+        .sample_at(scene.ego.s)
+        .neighbours
+        .iter()
+        .any(Option::is_some);
+    scene.config.lane_borrow.allow_lane_borrowing && has_neighbour && !crossable_sides(scene).is_empty()
 }
 
 /// Takes note of whether the own lane alone would have done; `None`: that was not looked at.

@@ -8,7 +8,7 @@ use super::pull_over::{PullOverWatch, is_pull_over};
 use super::view::{Sample, StepView};
 use crate::verdict::Ending;
 use corridor_decider::frame::Command;
-use corridor_decider::geometry::{Vec2, angle};
+use corridor_decider::geometry::{ConvexPolygon, Vec2, angle};
 use corridor_decider::reference_line::LineQuery;
 use corridor_decider::tasks::path_bounds::Label;
 use corridor_scenarios::Scenario;
@@ -78,6 +78,8 @@ impl EndingWatch {
             Ending::GoalReached
         } else if pull_over.is_done() {
             Ending::PulledOver
+        } else if pull_over.is_botched() {
+            Ending::PulledOverBadly
         } else if in_lane >= LANE_SETTLED && matches!(sample.scenario.command, Command::ChangeLane(_)) {
             Ending::LaneChanged
         } else if expect.allows_standstill() && standing >= STANDS_FOR && is_blocked() {
@@ -141,7 +143,7 @@ pub(super) fn is_expected(scenario: &Scenario, ending: Ending) -> bool {
         Ending::LaneChanged => *expect == Expectation::LaneChanged,
         Ending::Refused => expect.allows_refusal(),
         Ending::StoodStill => expect.allows_standstill(),
-        Ending::Collision | Ending::Timeout | Ending::DeciderFailed => false,
+        Ending::PulledOverBadly | Ending::Collision | Ending::Timeout | Ending::DeciderFailed => false,
     }
 }
 
@@ -166,17 +168,42 @@ fn gap_ahead(sample: &Sample) -> Option<f64> {
     let vehicle = &sample.scenario.vehicle;
     let reach = vehicle.half_width() + PASSING_BUFFER;
     let pose = sample.ego().pose;
-    let ahead = |outline: Vec<Vec2>| {
-        let local = || outline.iter().map(|v| pose.to_local(*v));
-        let near = local().map(|v| v.x).fold(f64::INFINITY, f64::min) - vehicle.front_edge_to_center;
-        let right = local().map(|v| v.y).fold(f64::INFINITY, f64::min);
-        let left = local().map(|v| v.y).fold(f64::NEG_INFINITY, f64::max);
-        (near >= 0.0 && right <= reach && left >= -reach).then_some(near)
+    let ahead = |outline: &ConvexPolygon| {
+        let local = |v: Vec2| pose.to_local(v);
+        let parts = outline
+            .edges()
+            .filter_map(|(a, b)| nearest_in_strip(local(a), local(b), reach));
+        let near = parts.reduce(f64::min)? - vehicle.front_edge_to_center;
+        (near >= 0.0).then_some(near)
     };
     sample
         .scenario
         .obstacles
         .iter()
-        .filter_map(|o| ahead(sample.outline(o.id)?.vertices().to_vec()))
+        .filter_map(|o| ahead(&sample.outline(o.id)?))
         .reduce(f64::min)
+}
+
+/// The least `x` of the part of a segment that lies within `reach` of the `x` axis. A long wall that comes into the
+/// strip far ahead is as far away as it is there.
+fn nearest_in_strip(a: Vec2, b: Vec2, reach: f64) -> Option<f64> {
+    let (low, high) = if a.y <= b.y { (a, b) } else { (b, a) };
+    if low.y > reach || high.y < -reach {
+        return None;
+    }
+    let at = |y: f64| {
+        let rise = high.y - low.y;
+        let share = if rise > 0.0 {
+            ((y - low.y) / rise).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        low.x + (high.x - low.x) * share
+    };
+    let ends = if high.y > low.y {
+        [at(-reach), at(reach)]
+    } else {
+        [low.x, high.x]
+    };
+    Some(ends[0].min(ends[1]))
 }

@@ -74,6 +74,7 @@ enum Limit {
     AtMost(f64),
     Below(f64),
     AtLeast(f64),
+    Above(f64),
 }
 
 /// A metric in the making: names of obstacles are filled in at the end.
@@ -133,6 +134,12 @@ impl Measure {
         Self { limit, ..self }
     }
 
+    /// Good while the value is above `limit`.
+    pub(super) fn above(self, limit: f64) -> Self {
+        let limit = Limit::Above(limit);
+        Self { limit, ..self }
+    }
+
     /// Failing it fails the run.
     pub(super) fn gate(self) -> Self {
         self.gate_if(true)
@@ -149,6 +156,7 @@ impl Measure {
             Limit::AtMost(limit) => value <= limit,
             Limit::Below(limit) => value < limit,
             Limit::AtLeast(limit) => value >= limit,
+            Limit::Above(limit) => value > limit,
         })
     }
 
@@ -156,7 +164,9 @@ impl Measure {
     pub(super) fn into_metric(self, names: &[String]) -> Metric {
         let threshold = match self.limit {
             Limit::Reported => None,
-            Limit::AtMost(limit) | Limit::Below(limit) | Limit::AtLeast(limit) => Some(limit),
+            Limit::AtMost(limit) | Limit::Below(limit) | Limit::AtLeast(limit) | Limit::Above(limit) => {
+                Some(limit)
+            }
         };
         Metric {
             name: self.name.to_owned(),
@@ -211,6 +221,7 @@ mod tests {
         assert!(pass(at(1.0).at_most(1.0)) && !pass(at(1.0 + 1e-12).at_most(1.0)));
         assert!(pass(at(1.0).at_least(1.0)) && !pass(at(1.0 - 1e-12).at_least(1.0)));
         assert!(!pass(at(1.0).below(1.0)) && pass(at(1.0 - 1e-12).below(1.0)));
+        assert!(!pass(at(1.0).above(1.0)) && pass(at(1.0 + 1e-12).above(1.0)));
         assert!(pass(Measure::new("x", None).below(1.0)));
     }
 }

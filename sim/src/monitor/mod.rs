@@ -8,6 +8,8 @@
 //! which it happened.
 
 mod avoidance;
+mod blocks;
+mod bound_clearance;
 mod bounds;
 mod collision;
 mod decider;
@@ -15,12 +17,15 @@ mod ending;
 mod labels;
 mod measure;
 mod motion;
+mod path_clearance;
 mod plan;
 mod progress;
 mod pull_over;
+mod reference_search;
 mod road;
 mod savitzky_golay;
 mod score;
+mod silhouette;
 mod standstill;
 pub(crate) mod summary;
 #[cfg(test)]
@@ -63,7 +68,11 @@ pub struct Monitor {
     decider: decider::DeciderWatch,
     ttc: ttc::TtcWatch,
     motion: motion::MotionWatch,
+    silhouettes: silhouette::Silhouettes,
     bounds: bounds::BoundWatch,
+    bound_clearance: bound_clearance::BoundClearanceWatch,
+    path_clearance: path_clearance::PathClearanceWatch,
+    blocks: blocks::BlockWatch,
     labels: labels::LabelWatch,
     pull_over: pull_over::PullOverWatch,
     tracking: tracking::TrackingWatch,
@@ -86,7 +95,11 @@ impl Monitor {
             decider: decider::DeciderWatch::default(),
             ttc: ttc::TtcWatch::new(scenario),
             motion: motion::MotionWatch::default(),
+            silhouettes: silhouette::Silhouettes::default(),
             bounds: bounds::BoundWatch::default(),
+            bound_clearance: bound_clearance::BoundClearanceWatch::default(),
+            path_clearance: path_clearance::PathClearanceWatch::default(),
+            blocks: blocks::BlockWatch::default(),
             labels: labels::LabelWatch::default(),
             pull_over: pull_over::PullOverWatch::default(),
             tracking: tracking::TrackingWatch::default(),
@@ -115,12 +128,25 @@ impl Monitor {
         let plan = Plan::new(frame, decision);
         self.decider.tick(frame, decision, &plan);
         self.bounds.tick(frame, self.plan.as_ref(), &plan);
+        self.obstacles(frame, decision, &plan);
         self.labels.tick(frame, &plan);
         self.ending.tick(&self.scenario, &plan);
         if self.decider.first_fault().is_some() {
             self.ending.end(Ending::DeciderFailed);
         }
         self.plan = Some(plan);
+    }
+
+    /// Holds a decision against what stands.
+    fn obstacles(&mut self, frame: &Frame, decision: &Decision, plan: &Plan) {
+        let vehicle = &self.scenario.vehicle;
+        if let Some(line) = &plan.line {
+            let standing = self.silhouettes.of(frame, line);
+            self.bound_clearance
+                .tick(frame, plan, &standing, vehicle.half_width());
+            self.blocks.tick(frame, plan, &standing, vehicle);
+        }
+        self.path_clearance.tick(frame, decision, vehicle);
     }
 
     /// Takes in that the decider gave no answer at all: it panicked.
@@ -187,6 +213,9 @@ impl Monitor {
         measures.extend(self.ttc.measures());
         measures.extend(self.motion.measures());
         measures.extend(self.bounds.measures());
+        measures.extend(self.bound_clearance.measures());
+        measures.extend(self.path_clearance.measures());
+        measures.extend(self.blocks.measures());
         measures.extend(self.labels.measures());
         measures.extend(self.pull_over.measures(&self.scenario));
         measures.extend(self.tracking.measures());

@@ -3,9 +3,9 @@
 //! Apollo's `CheckADCPullOver` with `pull_over_config.pb.txt`. Stations and offsets on the scenario's line, m; the ego
 //! and the target are rear axles.
 
-use super::measure::Measure;
+use super::measure::{LongestSpan, Measure};
 use super::view::Sample;
-use corridor_decider::decision::PullOverTarget;
+use corridor_decider::decision::{PullOverTarget, StopCause};
 use corridor_decider::frame::Command;
 use corridor_decider::geometry::angle;
 use corridor_decider::reference_line::LineQuery;
@@ -26,6 +26,10 @@ const PASS_DESTINATION: f64 = 15.0;
 const EDGE_GAP_LIMIT: f64 = 0.15 + 0.3;
 /// How long the ego must stand well before it counts, s: rolling on at 0.2 m/s for so long leaves any margin below 0.1 m.
 const SETTLING: f64 = 0.5;
+
+/// How long it may stand otherwise, s: long enough for a decider to see its mistake and roll on, far below any run's
+/// time.
+const BOTCHED: f64 = 10.0;
 
 /// Where a pull-over has come to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -57,6 +61,8 @@ struct Rest {
 pub(super) struct PullOverWatch {
     status: PullOverStatus,
     complete_since: Option<f64>,
+    astray: LongestSpan,
+    astray_for: f64,
     rest: Option<Rest>,
     edge_gap: Option<f64>,
     in_junction: bool,
@@ -73,6 +79,7 @@ impl PullOverWatch {
         else {
             self.status = PullOverStatus::Unknown;
             self.complete_since = None;
+            self.astray_for = self.astray.sample(false, sample.time());
             return;
         };
         let rest = rest_to(sample, &target);
@@ -84,6 +91,8 @@ impl PullOverWatch {
         } else {
             self.complete_since = None;
         }
+        let astray = self.status == PullOverStatus::Failed && !waits(sample);
+        self.astray_for = self.astray.sample(astray, sample.time());
         if self.stands() {
             self.edge_gap = edge_gap(sample);
             self.in_junction = sample.scenario.line.sample_at(sample.at.s).in_junction;
@@ -98,6 +107,11 @@ impl PullOverWatch {
     pub(super) fn is_done(&self) -> bool {
         self.complete_since
             .is_some_and(|since| self.time - since >= SETTLING)
+    }
+
+    /// Whether the ego has stood, not as it should, for too long to be on its way still.
+    pub(super) fn is_botched(&self) -> bool {
+        self.astray_for >= BOTCHED
     }
 
     pub(super) fn measures(&self, scenario: &Scenario) -> Vec<Measure> {
@@ -122,6 +136,12 @@ impl PullOverWatch {
 /// Whether the command is one to stop at the edge of the road.
 pub(super) fn is_pull_over(command: Command) -> bool {
     matches!(command, Command::PullOver(_) | Command::EmergencyPullOver)
+}
+
+/// Whether it is traffic that the ego stands for.
+fn waits(sample: &Sample) -> bool {
+    let stop = sample.plan.and_then(|plan| plan.stop);
+    stop.is_some_and(|stop| matches!(stop.cause, StopCause::Follow(_) | StopCause::Yield(_)))
 }
 
 fn rest_to(sample: &Sample, target: &PullOverTarget) -> Rest {

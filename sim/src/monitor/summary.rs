@@ -35,6 +35,9 @@ pub(crate) fn ending_words(ending: Ending) -> &'static str {
     match ending {
         Ending::GoalReached => "reached the goal",
         Ending::PulledOver => "stood at the road's edge",
+        Ending::PulledOverBadly => {
+            "had stood at the road's edge too long outside the tolerances of its place"
+        }
         Ending::LaneChanged => "had changed lanes",
         Ending::Refused => "had refused the command and come to no harm",
         Ending::StoodStill => "stood behind what cannot be passed",

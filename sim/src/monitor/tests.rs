@@ -1,5 +1,6 @@
 //! Hand-made situations, one group of metrics a file.
 
+mod answers;
 mod collisions;
 mod decisions;
 mod driving;

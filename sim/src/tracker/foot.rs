@@ -102,6 +102,22 @@ impl Foot {
         }
     }
 
+    /// The trajectory's speed and acceleration at this place; acceleration is constant between two points.
+    pub(super) fn motion(&self, trajectory: &[TrajectoryPoint]) -> (f64, f64) {
+        let from = &trajectory[self.chord];
+        let Some(to) = trajectory.get(self.chord + 1) else {
+            return (from.v, from.a);
+        };
+        let span = to.distance - from.distance;
+        let part = if span > 0.0 {
+            ((self.distance - from.distance) / span).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        let square = from.v * from.v + (to.v * to.v - from.v * from.v) * part;
+        (square.max(0.0).sqrt(), to.a)
+    }
+
     /// Curvature `ahead` metres further on; beyond the end that of the last point.
     pub(super) fn kappa_ahead(&self, trajectory: &[TrajectoryPoint], ahead: f64) -> f64 {
         let goal = self.distance + ahead;

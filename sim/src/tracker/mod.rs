@@ -22,11 +22,17 @@ use foot::{Foot, Moment};
 /// Below this speed a trajectory means to stand, m/s.
 const STANDING: f64 = 0.05;
 
+/// Braking of the last centimetres, m/s²: what the wheels lose at once when they stand.
+const SETTLING: f64 = 0.3;
+
+/// Slower than this the wheels stand, m/s.
+const AT_REST: f64 = 1e-3;
+
 /// How far ahead a trajectory must stay at rest for the brakes to be held, s.
 const HOLD_PREVIEW: f64 = 0.5;
 
-/// The last metres and the last speed before a stop, m and m/s, in which braking goes by the place and no more by
-/// the clock: only the place counts there.
+/// The last metres and the last speed before a stop, m and m/s, in which the trajectory is followed by the place and
+/// no more by the clock: only the place counts there.
 const FINAL_DISTANCE: f64 = 3.0;
 const FINAL_SPEED: f64 = 2.5;
 
@@ -35,6 +41,10 @@ const GENTLEST_STOP: f64 = 0.2;
 
 /// Shortest distance that is left to stop in, m, so that the braking asked for stays finite.
 const NO_DISTANCE: f64 = 0.01;
+
+/// Braking times way left over speed squared: for constant braking, and for braking that fades linearly in time to
+/// nothing at the stop.
+const SHAPES: (f64, f64) = (1.0 / 2.0, 2.0 / 3.0);
 
 /// Follows trajectories.
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +73,11 @@ impl Tracker {
         if stands(trajectory, last, now, time_since_frame) && ego.v.abs() <= STANDING {
             return Controls {
                 steer: ego.steer,
-                acceleration: -self.config.hold_brake,
+                acceleration: if ego.v.abs() <= AT_REST {
+                    -self.config.hold_brake
+                } else {
+                    -SETTLING
+                },
             };
         }
         let foot = Foot::of(trajectory, ego.pose, now.index);
@@ -116,13 +130,20 @@ fn stands(trajectory: &[TrajectoryPoint], last: &TrajectoryPoint, now: Moment, t
     now.v <= STANDING && soon.v <= STANDING && last.v <= STANDING
 }
 
-/// The constant braking that stops the car where the trajectory ends, if that is at rest and near; m/s².
+/// Where the trajectory ends at rest and near: the braking that stops the car there, m/s², in the shape that the
+/// trajectory's own braking has from here on.
 fn final_braking(ego: &EgoState, trajectory: &[TrajectoryPoint], foot: &Foot) -> Option<f64> {
     let last = trajectory.last()?;
     let left = last.distance - foot.distance;
     if last.v > STANDING || left > FINAL_DISTANCE || ego.v > FINAL_SPEED {
         return None;
     }
-    let needed = ego.v * ego.v / (2.0 * left.max(NO_DISTANCE));
+    let (v, a) = foot.motion(trajectory);
+    let shape = if v > STANDING {
+        (-a * left / (v * v)).clamp(SHAPES.0, SHAPES.1)
+    } else {
+        SHAPES.0
+    };
+    let needed = shape * ego.v * ego.v / left.max(NO_DISTANCE);
     (needed >= GENTLEST_STOP || left <= 0.0).then_some(-needed.max(GENTLEST_STOP))
 }

@@ -27,6 +27,9 @@ const START_EXCESS: f64 = 0.02;
 /// Over which distance that excess has to go, m.
 const START_LENGTH: f64 = 5.0;
 
+/// Points without which there is no path to speak of.
+const LEAST_POINTS: usize = 4;
+
 pub(super) fn assess(
     scene: &Scene,
     table: &LineTable,
@@ -40,14 +43,19 @@ pub(super) fn assess(
     if !profile.l.iter().enumerate().all(inside) {
         return Err(Rejection::LeavesBound);
     }
-    let points = points(table, profile);
+    let mut points = points(table, profile);
     let limit = scene.vehicle.max_kappa() * scene.config.path.curvature_share;
     let bends = |p: &PathPoint| {
         let excess = START_EXCESS * (1.0 - p.distance / START_LENGTH).max(0.0);
         p.kappa.abs() > limit + excess || !p.kappa.is_finite()
     };
-    if points.iter().skip(1).any(bends) {
-        return Err(Rejection::Curvature);
+    if let Some(k) = (1..points.len()).find(|k| bends(&points[*k])) {
+        // A road that cannot be driven on is driven as far as it can.
+        let near = &table.rows[k.saturating_sub(1)..(k + 2).min(table.rows.len())];
+        if k < LEAST_POINTS || near.iter().all(|row| row.kappa.abs() <= limit) {
+            return Err(Rejection::Curvature);
+        }
+        points.truncate(k);
     }
     if leaves_road(scene, table, profile) {
         return Err(Rejection::LeavesRoad);

@@ -1,7 +1,8 @@
 //! The corridor of a path: a bound at the path's stations, and what draws the path where inside it.
 
 use super::Goal;
-use super::table::{LineTable, STEP};
+use super::table::{LineTable, Row, STEP};
+use crate::decision::PathPoint;
 use crate::tasks::path_bounds::{BoundPoint, EdgeCause, PathBound};
 use crate::tasks::scene::Scene;
 
@@ -28,8 +29,15 @@ const PULL_IN: (f64, f64) = (4.0, 22.0);
 /// Room beyond the buffer that a path would like to have to an obstacle, m.
 const WANTED_ROOM: f64 = 0.5;
 
-/// How much more the wish for room weighs than the wish to be in the middle of the lane.
+/// How much more the wish for room weighs than the wish to be in the middle of the lane, where there is as much as
+/// wanted; with less it grows as the square of what lacks.
 const ROOM_WEIGHT: f64 = 4.0;
+
+/// What is left of the wanted room at least, as a share: the weight stays finite in a gap as wide as the car.
+const LEAST_SHARE: f64 = 0.3;
+
+/// How much the way of the tick before weighs against the middle of the lane.
+const STAY_WEIGHT: f64 = 1.0;
 
 /// Where a station would like the path to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,6 +46,15 @@ pub(super) struct Pull {
     pub l: f64,
     /// How much that counts.
     pub weight: f64,
+}
+
+impl Pull {
+    /// Adds a second wish: the sum of two squares is a square around their weighted mean, but for a constant.
+    fn share_with(&mut self, l: f64, weight: f64) {
+        let sum = self.weight + weight;
+        self.l = (self.l * self.weight + l * weight) / sum;
+        self.weight = sum;
+    }
 }
 
 /// A bound at the stations of the path.
@@ -53,11 +70,21 @@ pub(super) struct Corridor {
     pub smoothing_length: f64,
     /// Allowed overshoot per station, m.
     pub tolerance: Vec<f64>,
+    /// Curvature of the line that the path should even out, per station: none where the line is fit to be driven.
+    pub bends: Vec<f64>,
+    /// The way of the tick before along these stations, as far as it leads.
+    pub last: Option<Vec<f64>>,
 }
 
 impl Corridor {
     /// The bound at every metre, each the narrowest of the stations around it. `None` if it is too short.
-    pub(super) fn new(scene: &Scene, table: &LineTable, bound: &PathBound, goal: Goal) -> Option<Self> {
+    pub(super) fn new(
+        scene: &Scene,
+        table: &LineTable,
+        bound: &PathBound,
+        goal: Goal,
+        last: Option<&[PathPoint]>,
+    ) -> Option<Self> {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -84,6 +111,12 @@ impl Corridor {
         if let Some(stop_s) = goal.stop_s {
             arrive(scene, table, goal.l, stop_s, &mut limits, &mut pulls);
         }
+        let last = last.map(|last| along(last, &table.rows[..count]));
+        if let Some(last) = &last {
+            for (pull, l) in pulls.iter_mut().zip(last) {
+                pull.share_with(*l, STAY_WEIGHT);
+            }
+        }
         let config = &scene.config.path;
         let start = scene.lateral.l;
         let outside = (limits[0].0 - start[0]).max(start[0] - limits[0].1).max(0.0);
@@ -98,7 +131,31 @@ impl Corridor {
             start,
             smoothing_length,
             tolerance,
+            bends: vec![0.0; count],
+            last,
         })
+    }
+
+    /// The corridor for a path that was inside it a tick ago: as wide as the widest of a station and its neighbours.
+    /// Stations move on with the car, so the same edge of the same obstacle comes and goes by one of them.
+    pub(super) fn widened(&self) -> Self {
+        let near = |k: usize| &self.limits[k.saturating_sub(1)..(k + 2).min(self.limits.len())];
+        let widest = |(lo, hi): (f64, f64), limits: &(f64, f64)| (lo.min(limits.0), hi.max(limits.1));
+        let limits = (0..self.limits.len())
+            .map(|k| near(k).iter().fold((f64::MAX, -f64::MAX), widest))
+            .collect();
+        Self {
+            limits,
+            ..self.clone()
+        }
+    }
+
+    /// The corridor for a path that rounds the bends of its line instead of keeping beside it.
+    pub(super) fn rounding(&self, table: &LineTable) -> Self {
+        Self {
+            bends: table.rows[..self.len()].iter().map(|row| row.kappa).collect(),
+            ..self.clone()
+        }
     }
 
     /// Number of stations.
@@ -133,18 +190,32 @@ fn pull((lo, hi): (f64, f64), point: &BoundPoint) -> Pull {
         }
     };
     let (right, left) = (room(point.right), room(point.left));
-    let weight = if right + left > 0.0 { ROOM_WEIGHT } else { 1.0 };
     let (lowest, highest) = (lo + right, hi - left);
-    let l = if lowest <= highest {
-        0.0_f64.clamp(lowest, highest)
+    let (l, share) = if lowest <= highest {
+        (0.0_f64.clamp(lowest, highest), 1.0)
     } else {
         let share = (hi - lo) / (right + left);
-        lo + right * share
+        (lo + right * share, share.max(LEAST_SHARE))
+    };
+    let weight = if right + left > 0.0 {
+        ROOM_WEIGHT / (share * share)
+    } else {
+        1.0
     };
     Pull {
         l: l.clamp(lo, hi),
         weight,
     }
+}
+
+/// Offsets of an old path at these stations, ending where it ends.
+fn along(old: &[PathPoint], rows: &[Row]) -> Vec<f64> {
+    let offset = |row: &Row| {
+        let above = old.partition_point(|p| p.s <= row.s);
+        let (a, b) = (old.get(above.checked_sub(1)?)?, old.get(above)?);
+        Some(a.l + (b.l - a.l) * (row.s - a.s) / (b.s - a.s))
+    };
+    rows.iter().map_while(offset).collect()
 }
 
 /// Draws the end of the path to a place at the road's edge and has it arrive there straight.

@@ -2,7 +2,8 @@
 //!
 //! The smoothed path minimises offset and its first three derivatives inside the bound; when it is turned down,
 //! a bundle of quintics (the lateral bundle of the original's lattice planner) offers others. A path ends
-//! where the body would touch something: how far it leads is its *reach*.
+//! where the body would touch something: how far it leads is its *reach*. The way of the tick before is kept while
+//! it is clear and nearly as good: a car that changes its mind ten times a second drives badly on any path.
 
 mod assess;
 mod bundle;
@@ -12,7 +13,7 @@ mod reuse;
 mod smooth;
 mod table;
 
-pub use reuse::reuse;
+pub use reuse::{is_on, reuse};
 pub use table::LineTable;
 
 use super::path_bounds::PathBound;
@@ -57,6 +58,10 @@ impl Default for PathConfig {
     }
 }
 
+/// A new way is taken when it costs less than this share of the way of the tick before, less this much: one
+/// metre's stay at 0.45 m beside the middle.
+const WORTH_A_CHANGE: (f64, f64) = (0.9, 0.2);
+
 /// A drivable path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
@@ -96,23 +101,64 @@ pub struct Goal {
 ///
 /// # Errors
 /// [`Rejection`] of the most promising path when none can be driven.
-pub fn plan(scene: &Scene, table: &LineTable, bound: &PathBound, goal: Goal) -> Result<Path, Rejection> {
-    let corridor = Corridor::new(scene, table, bound, goal).ok_or(Rejection::TooShort)?;
-    let smoothed = smooth::solve(&corridor).and_then(|p| assess::assess(scene, table, &corridor, &p));
-    match smoothed {
-        Ok(path) if path.serves(goal) => Ok(finish(path, bound)),
-        smoothed => best_of_bundle(scene, table, &corridor, goal, smoothed).map(|path| finish(path, bound)),
+pub fn plan(
+    scene: &Scene,
+    table: &LineTable,
+    bound: &PathBound,
+    goal: Goal,
+    last: Option<&[PathPoint]>,
+) -> Result<Path, Rejection> {
+    let corridor = Corridor::new(scene, table, bound, goal, last).ok_or(Rejection::TooShort)?;
+    let assess_in = |corridor: &Corridor, profile: Profile| {
+        let cost = profile.cost(corridor);
+        assess::assess(scene, table, corridor, &profile).map(|path| (cost, path))
+    };
+    let assess = |profile| assess_in(&corridor, profile);
+    let whole = table.rows[corridor.len() - 1].s;
+    let mut smoothed = smooth::solve(&corridor).and_then(assess);
+    if is_cut_short(&smoothed, whole) {
+        smoothed = smooth::solve(&corridor.rounding(table))
+            .and_then(assess)
+            .or(smoothed);
     }
+    let new = match smoothed {
+        Ok((_, ref path)) if path.serves(goal) => smoothed,
+        smoothed => best_of_bundle(&corridor, goal, smoothed, assess),
+    };
+    let kept = Profile::kept(&corridor).and_then(|old| assess_in(&corridor.widened(), old).ok());
+    let path = match (new, kept) {
+        (Ok(new), Some(kept)) if is_better(&new, &kept, goal) => Ok(new.1),
+        (_, Some(kept)) => Ok(kept.1),
+        (new, None) => new.map(|(_, path)| path),
+    };
+    path.map(|path| finish(path, bound))
+}
+
+/// Whether a path is missing or ends early because of its bends.
+fn is_cut_short(path: &Result<(f64, Path), Rejection>, whole: f64) -> bool {
+    match path {
+        Ok((_, path)) => path.blocked_by.is_none() && path.end_s() < whole,
+        Err(rejection) => *rejection == Rejection::Curvature,
+    }
+}
+
+/// Whether a new way is so much better than the one that is being driven that it is worth to change.
+fn is_better(new: &(f64, Path), kept: &(f64, Path), goal: Goal) -> bool {
+    let serves = (new.1.serves(goal), kept.1.serves(goal));
+    if serves != (true, true) {
+        return serves.0 || (!serves.1 && new.1.end_s() + table::STEP >= kept.1.end_s());
+    }
+    let leads_farther = new.1.end_s() > kept.1.end_s() + table::STEP;
+    leads_farther || new.0 < kept.0 * WORTH_A_CHANGE.0 - WORTH_A_CHANGE.1
 }
 
 /// The farthest-leading path of the bundle and the smoothed one; among equals the one of least cost.
 fn best_of_bundle(
-    scene: &Scene,
-    table: &LineTable,
     corridor: &Corridor,
     goal: Goal,
-    smoothed: Result<Path, Rejection>,
-) -> Result<Path, Rejection> {
+    smoothed: Result<(f64, Path), Rejection>,
+    assess: impl Fn(Profile) -> Result<(f64, Path), Rejection>,
+) -> Result<(f64, Path), Rejection> {
     let mut best = smoothed;
     let mut profiles: Vec<(f64, Profile)> = bundle::sample(corridor)
         .into_iter()
@@ -120,11 +166,11 @@ fn best_of_bundle(
         .collect();
     profiles.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (_, profile) in profiles {
-        let Ok(path) = assess::assess(scene, table, corridor, &profile) else {
+        let Ok(path) = assess(profile) else {
             continue;
         };
-        let serves = path.serves(goal);
-        if best.as_ref().map_or(-1.0, Path::end_s) + table::STEP < path.end_s() {
+        let serves = path.1.serves(goal);
+        if best.as_ref().map_or(-1.0, |best| best.1.end_s()) + table::STEP < path.1.end_s() {
             best = Ok(path);
         }
         if serves {

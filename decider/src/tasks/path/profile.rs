@@ -37,13 +37,28 @@ impl Profile {
         Self { l }
     }
 
+    /// The way of the tick before, going on at its last offset as far as the corridor lets it.
+    pub(super) fn kept(corridor: &Corridor) -> Option<Self> {
+        let last = corridor.last.as_ref()?;
+        let end = *last.last()?;
+        let mut offsets = last.clone();
+        offsets.extend(
+            corridor.limits[last.len()..]
+                .iter()
+                .map(|(lo, hi)| end.max(*lo).min(*hi)),
+        );
+        Some(Self::from_offsets(&offsets, corridor.start))
+    }
+
     /// The smoother's objective, so that sampled and smoothed paths compare.
     pub(super) fn cost(&self, corridor: &Corridor) -> f64 {
         let square = corridor.smoothing_length * corridor.smoothing_length;
-        let cost = |([l, dl, ddl, dddl], pull): (&[f64; 4], &Pull)| {
-            let off = l - pull.l;
-            pull.weight * off * off + square * (dl * dl + square * (ddl * ddl + square * dddl * dddl))
+        let bends = &corridor.bends;
+        let cost = |(k, ([l, dl, ddl, dddl], pull)): (usize, (&[f64; 4], &Pull))| {
+            let (off, bend) = (l - pull.l, ddl + bends[k]);
+            let twist = dddl + (bends[k] - bends[k.saturating_sub(1)]) / STEP;
+            pull.weight * off * off + square * (dl * dl + square * (bend * bend + square * twist * twist))
         };
-        self.l.iter().zip(&corridor.pulls).map(cost).sum()
+        self.l.iter().zip(&corridor.pulls).enumerate().map(cost).sum()
     }
 }

@@ -1,6 +1,6 @@
 //! The smoothest offset profile inside a corridor.
 //!
-//! Minimises `Σ w (l − l_wanted)² + λ² l'² + λ⁴ l''² + λ⁶ l'''²` over offsets a metre apart, derivatives by
+//! Minimises `Σ w (l − l_wanted)² + λ² l'² + λ⁴ (l'' + κ)² + λ⁶ (l''' + κ')²` over offsets a metre apart, derivatives by
 //! forward differences that begin two metres behind the ego, where the start state says it came from. Limits enter as stiff springs at
 //! the stations that press against them; which ones do is found by Newton's method for the semismooth problem
 //! (an active-set iteration). Each step is one banded Cholesky factorisation, linear in the number of stations.
@@ -41,8 +41,10 @@ pub(super) fn solve(corridor: &Corridor) -> Result<Profile, Rejection> {
     let past = past_offsets(corridor.start);
     let (matrix, rhs) = normal_equations(corridor, past);
     let mut press = vec![Press::None; rhs.len()];
+    let (mut stiffened, mut pulled) = (matrix.clone(), rhs.clone());
     for step in 0..MAX_STEPS {
-        let (mut stiffened, mut pulled) = (matrix.clone(), rhs.clone());
+        stiffened.copy_from_slice(&matrix);
+        pulled.copy_from_slice(&rhs);
         for (k, press) in press.iter().enumerate() {
             if let Some(edge) = rest(corridor.limits[k + 1], *press) {
                 stiffened[k][BAND] += STIFFNESS;
@@ -98,6 +100,11 @@ fn pressed(l: f64, limits: (f64, f64)) -> Press {
 fn normal_equations(corridor: &Corridor, past: [f64; 3]) -> (Vec<Row>, Vec<f64>) {
     let free = corridor.len() - 1;
     let square = corridor.smoothing_length * corridor.smoothing_length / (STEP * STEP);
+    // Minus what the stencil that ends at a station should give: nothing, the curvature to even out, its change.
+    let bend = |k: usize| corridor.bends[k] * STEP * STEP;
+    let targets: [&dyn Fn(usize) -> f64; 3] = [&|_| 0.0, &|last| bend(last.saturating_sub(1)), &|last| {
+        bend(last.saturating_sub(1)) - bend(last.saturating_sub(2))
+    }];
     let differences: [(&[f64], f64); 3] = [
         (&[-1.0, 1.0], square),
         (&[1.0, -2.0, 1.0], square * square),
@@ -106,12 +113,15 @@ fn normal_equations(corridor: &Corridor, past: [f64; 3]) -> (Vec<Row>, Vec<f64>)
     let pulls = &corridor.pulls[1..];
     let mut matrix: Vec<Row> = pulls.iter().map(|pull| [0.0, 0.0, 0.0, pull.weight]).collect();
     let mut rhs: Vec<f64> = pulls.iter().map(|pull| pull.weight * pull.l).collect();
-    for (stencil, weight) in differences {
+    for ((stencil, weight), target) in differences.into_iter().zip(targets) {
         for first in past.len() + 1 - stencil.len()..=past.len() + free - stencil.len() {
+            // The last of the past offsets is that of station 0.
+            let excess = target(first + stencil.len() - past.len());
             for (a, ca) in stencil.iter().enumerate() {
                 let Some(row) = (first + a).checked_sub(past.len()) else {
                     continue;
                 };
+                rhs[row] -= weight * ca * excess;
                 for (b, cb) in stencil[..=a].iter().enumerate() {
                     match (first + b).checked_sub(past.len()) {
                         Some(column) => matrix[row][BAND + column - row] += weight * ca * cb,
@@ -162,9 +172,11 @@ mod tests {
         Corridor {
             pulls: vec![Pull { l: 0.0, weight: 1.0 }; limits.len()],
             tolerance: vec![0.03; limits.len()],
-            limits,
             start,
             smoothing_length: 6.0,
+            bends: vec![0.0; limits.len()],
+            last: None,
+            limits,
         }
     }
 

@@ -11,10 +11,12 @@
 
 use super::bound::{BoundPoint, EdgeCause};
 use super::edges::{Limit, narrow};
+use super::forbidden::{Active, Forbidden};
 use super::input::Input;
-use super::obstacles::{Beside, Passage, Widening};
+use super::obstacles::Passage;
 use crate::frame::ObstacleId;
 use crate::road::Side;
+use std::ops::Range;
 
 /// Surcharge for passing an obstacle on the other side than before, in metres of lateral motion: half a lane
 /// width, so that only a clearly better way changes the mind.
@@ -30,33 +32,14 @@ const COMFORTABLE_WIDTH: f64 = 0.4;
 /// Weight of the width that is missing to a comfortable gap, per station.
 const NARROW_WEIGHT: f64 = 0.2;
 
-/// How near to its own place the ego keeps a relaxed limit, m.
-const EGO_SLACK: f64 = 0.02;
-
-/// A widened obstacle in terms of the rear axle: the interval of `l` that it forbids.
+/// A way from the ego through one gap per slab.
 #[derive(Clone, Copy, Debug)]
-struct Forbidden {
-    id: ObstacleId,
-    /// Near edge of the obstacle itself, m.
-    start_s: f64,
-    first: usize,
-    past: usize,
-    l_min: f64,
-    l_max: f64,
-    remembered: Option<Side>,
-    /// The only side left to an ego that is beside it.
-    only: Option<Side>,
-}
-
-impl Forbidden {
-    /// On which side of it a gap lies whose right limit is `right`.
-    fn side_of(&self, right: f64) -> Side {
-        if self.l_max <= right {
-            Side::Left
-        } else {
-            Side::Right
-        }
-    }
+struct Chain {
+    cost: f64,
+    /// Where it runs in its last gap.
+    l: f64,
+    /// The gap before the last one, by its place among all gaps.
+    parent: usize,
 }
 
 /// A free interval between two forbidden ones (or the bound's edges) and the best chain that leads into it.
@@ -64,12 +47,7 @@ impl Forbidden {
 struct Gap {
     right: Limit,
     left: Limit,
-    /// Cost of the best chain up to here.
-    cost: f64,
-    /// Where that chain runs.
-    l: f64,
-    /// Place of its predecessor among the gaps of the slab before.
-    parent: usize,
+    chain: Chain,
 }
 
 /// Stations in a row with the same gaps: no obstacle begins or ends between them and the bound keeps its edges.
@@ -81,36 +59,32 @@ struct Slab {
     gaps: usize,
 }
 
-pub(super) fn limit(
-    bound: &mut Vec<BoundPoint>,
-    input: &Input,
-    beside: &[Beside],
-    widening: Widening,
-) -> Passage {
-    let forbidden = forbidden_intervals(bound.len(), input, beside, widening);
+pub(super) fn limit(bound: &mut Vec<BoundPoint>, input: &Input, forbidden: &[Forbidden]) -> Passage {
+    let reached = forbidden.partition_point(|obstacle| obstacle.first < bound.len());
+    let forbidden = &forbidden[..reached];
     let mut passage = Passage::default();
     if forbidden.is_empty() {
         return passage;
     }
     let mut slabs: Vec<Slab> = Vec::with_capacity(2 * forbidden.len());
     let mut gaps: Vec<Gap> = Vec::with_capacity(4 * forbidden.len());
-    let mut active = Active::of(&forbidden, bound);
+    let mut active = Active::of(forbidden, bound);
     let mut first = 0;
 
     while first < bound.len() {
         active.move_to(first);
-        let past = first + count_alike(&bound[first..active.next_change().min(bound.len())]);
+        let past = first + count_alike(&bound[first..active.next_change.min(bound.len())]);
         let start = gaps.len();
         let before = slabs.last().map_or(0, |slab| slab.gaps)..start;
-        let entry = Entry {
-            is_first: first == 0,
+        let mut entry = Entry {
+            from: (first > 0).then(|| before.clone()),
             ego_l: input.ego.l,
-            first,
             stations: (past - first) as f64,
+            active: &active,
         };
         open_gaps(&bound[first], &active.beside, |right, left| {
-            if let Some(gap) = entry.best(&gaps[before.clone()], right, left, &active.beside) {
-                gaps.push(gap);
+            if let Some(chain) = entry.best(&gaps, right.l, left.l) {
+                gaps.push(Gap { right, left, chain });
             }
         });
         if gaps.len() == start {
@@ -128,98 +102,8 @@ pub(super) fn limit(
         first = past;
     }
     carve(&mut bound[..first], &gaps, &slabs);
-    passage.passed = sides(bound, &forbidden);
+    passage.passed = sides(bound, forbidden);
     passage
-}
-
-/// What each obstacle forbids, by first station.
-fn forbidden_intervals(
-    stations: usize,
-    input: &Input,
-    beside: &[Beside],
-    widening: Widening,
-) -> Vec<Forbidden> {
-    let mut all = Vec::with_capacity(beside.len());
-    let reached = beside.iter().take_while(|obstacle| obstacle.first < stations);
-    all.extend(reached.filter_map(|obstacle| forbidden_by(obstacle, input, widening)));
-    all
-}
-
-/// What one obstacle forbids, if that is anything.
-fn forbidden_by(obstacle: &Beside, input: &Input, widening: Widening) -> Option<Forbidden> {
-    let half_width = input.vehicle.half_width();
-    let right = obstacle.start_l.min(obstacle.end_l);
-    let left = obstacle.start_l.max(obstacle.end_l);
-    let (mut buffer_right, mut buffer_left) = (widening.lateral, widening.lateral);
-    let mut only = None;
-    if obstacle.first == 0 {
-        // Beside the ego the buffer gives way rather than demand a jump, and the side is chosen.
-        let kept = |room: f64| {
-            (room - half_width - EGO_SLACK)
-                .max(widening.hard.min(widening.lateral))
-                .min(widening.lateral)
-        };
-        let (room_left, room_right) = (input.ego.l - left, right - input.ego.l);
-        (buffer_right, buffer_left) = (kept(room_right), kept(room_left));
-        only = match (room_left >= 0.0, room_right >= 0.0) {
-            (true, _) => Some(Side::Left),
-            (_, true) => Some(Side::Right),
-            _ => None,
-        };
-    }
-    let l_min = right - half_width - buffer_right;
-    let l_max = left + half_width + buffer_left;
-    (l_min < l_max).then_some(Forbidden {
-        id: obstacle.id,
-        start_s: obstacle.start_s,
-        first: obstacle.first,
-        past: obstacle.past,
-        l_min,
-        l_max,
-        remembered: obstacle.remembered,
-        only,
-    })
-}
-
-/// The obstacles beside one station, moved along the bound.
-struct Active<'a> {
-    /// By ascending right edge.
-    beside: Vec<&'a Forbidden>,
-    /// Those still to come.
-    ahead: std::iter::Peekable<std::vec::IntoIter<&'a Forbidden>>,
-}
-
-impl<'a> Active<'a> {
-    /// All that narrow the bound somewhere, or that the ego is beside: what lies outside changes no gap.
-    fn of(all: &'a [Forbidden], bound: &[BoundPoint]) -> Self {
-        let (right, left) = bound.iter().fold((f64::MAX, -f64::MAX), |(right, left), point| {
-            (right.min(point.l_min), left.max(point.l_max))
-        });
-        let matters = |o: &&Forbidden| (o.l_max > right && o.l_min < left) || o.only.is_some();
-        let mut ahead = Vec::with_capacity(all.len());
-        ahead.extend(all.iter().filter(matters));
-        Self {
-            beside: Vec::with_capacity(ahead.len()),
-            ahead: ahead.into_iter().peekable(),
-        }
-    }
-
-    fn move_to(&mut self, station: usize) {
-        self.beside.retain(|obstacle| obstacle.past > station);
-        while let Some(obstacle) = self.ahead.next_if(|obstacle| obstacle.first <= station) {
-            let place = self.beside.partition_point(|other| other.l_min <= obstacle.l_min);
-            self.beside.insert(place, obstacle);
-        }
-    }
-
-    /// The next station at which an obstacle begins or ends.
-    fn next_change(&mut self) -> usize {
-        let next = self.ahead.peek().map_or(usize::MAX, |obstacle| obstacle.first);
-        self.beside
-            .iter()
-            .map(|obstacle| obstacle.past)
-            .fold(next, usize::min)
-    }
 }
 
 /// How many points have the edges of the first one. Where only the causes differ, gaps do not.
@@ -272,44 +156,42 @@ fn open_gaps(point: &BoundPoint, active: &[&Forbidden], mut found: impl FnMut(Li
     }
 }
 
-/// How chains come into the gaps of a slab.
-struct Entry {
-    is_first: bool,
+/// How chains come into the gaps of a slab, asked from the rightmost gap to the leftmost.
+struct Entry<'a> {
+    /// The gaps of the slab before that may touch the next gap, by place; `None` in the first slab.
+    from: Option<Range<usize>>,
     ego_l: f64,
-    /// Its first station, and how many there are.
-    first: usize,
+    /// How many stations the slab has.
     stations: f64,
+    active: &'a Active<'a>,
 }
 
-impl Entry {
-    /// The best chain into a gap from the slab before, if any of its gaps touches it; the leftmost of equals.
-    fn best(&self, before: &[Gap], right: Limit, left: Limit, active: &[&Forbidden]) -> Option<Gap> {
-        let flips = flip_cost(right, left, active, self.first);
-        let narrow = (COMFORTABLE_WIDTH - (left.l - right.l)).max(0.0) * NARROW_WEIGHT;
+impl Entry<'_> {
+    /// The best chain into the gap `[right, left]`, if there is any; of equals the one from farthest left.
+    fn best(&mut self, gaps: &[Gap], right: f64, left: f64) -> Option<Chain> {
+        let flips = flip_cost(right, left, self.active);
+        let narrow = (COMFORTABLE_WIDTH - (left - right)).max(0.0) * NARROW_WEIGHT;
         let entered = |from: f64, cost: f64, parent: usize| {
-            let l = from.clamp(right.l, left.l);
+            let l = from.clamp(right, left);
             let along = self.stations * (OFFSET_WEIGHT * l.abs() + narrow);
-            Gap {
-                right,
-                left,
-                cost: cost + (l - from).abs() + flips + along,
-                l,
-                parent,
-            }
+            let cost = cost + (l - from).abs() + flips + along;
+            Chain { cost, l, parent }
         };
-        if self.is_first {
+        let Some(from) = &mut self.from else {
             // The ego cannot jump across what it is beside.
-            let jumps = |obstacle: &&Forbidden| {
-                obstacle
-                    .only
-                    .is_some_and(|only| only != obstacle.side_of(right.l))
-            };
-            return (!active.iter().any(jumps)).then(|| entered(self.ego_l, 0.0, 0));
+            let is_jump =
+                |obstacle: &&Forbidden| obstacle.only.is_some_and(|only| only != obstacle.side_of(right));
+            let jumps = self.active.beside.iter().any(is_jump);
+            return (!jumps).then(|| entered(self.ego_l, 0.0, 0));
+        };
+        // What ends right of this gap ends right of all that are still asked for.
+        while from.start < from.end && gaps[from.start].left.l < right {
+            from.start += 1;
         }
-        let touching = |gap: &Gap| gap.right.l <= left.l && right.l <= gap.left.l;
-        let mut best: Option<Gap> = None;
-        for (parent, gap) in before.iter().enumerate().filter(|(_, gap)| touching(gap)) {
-            let next = entered(gap.l, gap.cost, parent);
+        let mut best: Option<Chain> = None;
+        for parent in from.clone().take_while(|place| gaps[*place].right.l <= left) {
+            let Chain { cost, l, .. } = gaps[parent].chain;
+            let next = entered(l, cost, parent);
             if best.is_none_or(|best| next.cost <= best.cost) {
                 best = Some(next);
             }
@@ -319,11 +201,12 @@ impl Entry {
 }
 
 /// Surcharges for the obstacles that begin at this station and would be passed on another side than before.
-fn flip_cost(right: Limit, left: Limit, active: &[&Forbidden], i: usize) -> f64 {
-    let flips = active.iter().filter(|obstacle| {
-        debug_assert!(obstacle.l_max <= right.l || obstacle.l_min >= left.l);
-        let side = obstacle.side_of(right.l);
-        obstacle.first == i && obstacle.remembered.is_some_and(|before| before != side)
+fn flip_cost(right: f64, left: f64, active: &Active) -> f64 {
+    let flips = active.begun().iter().filter(|obstacle| {
+        debug_assert!(obstacle.l_max <= right || obstacle.l_min >= left);
+        obstacle
+            .remembered
+            .is_some_and(|before| before != obstacle.side_of(right))
     });
     flips.count() as f64 * FLIP_COST
 }
@@ -356,15 +239,15 @@ fn carve(points: &mut [BoundPoint], gaps: &[Gap], slabs: &[Slab]) {
     let best = gaps[last.gaps..]
         .iter()
         .enumerate()
-        .min_by(|a, b| a.1.cost.total_cmp(&b.1.cost).then(b.0.cmp(&a.0)));
-    let mut place = best.map_or(0, |(place, _)| place);
+        .min_by(|a, b| a.1.chain.cost.total_cmp(&b.1.chain.cost).then(b.0.cmp(&a.0)));
+    let mut place = best.map_or(last.gaps, |(place, _)| last.gaps + place);
     let mut past = points.len();
     for slab in slabs.iter().rev() {
-        let gap = &gaps[slab.gaps + place];
+        let gap = &gaps[place];
         for point in &mut points[slab.first..past] {
             narrow(point, gap.right, gap.left);
         }
-        (place, past) = (gap.parent, slab.first);
+        (place, past) = (gap.chain.parent, slab.first);
     }
 }
 

@@ -8,34 +8,34 @@ use crate::reference_line::{LineQuery, SlPoint};
 /// How far around the ego the zone leaves room, m.
 const EGO_SLACK: f64 = 0.1;
 
-/// Keeps the ego out of the target lane until the place where the change may start.
-pub(super) fn keep_out<L: LineQuery + ?Sized>(
-    bound: &mut [BoundPoint],
-    stations: &[Station],
+/// Station up to which the ego keeps out of the target lane; `None` where the change may start at once.
+pub(super) fn zone_end<L: LineQuery + ?Sized>(
     line: &L,
     input: &Input,
     state: &mut ChangeLane,
-) {
+) -> Option<f64> {
     if state.is_clear {
         state.start = None;
-        return;
+        return None;
     }
-    let start_s = if let Some(start) = state.start {
+    let end = if let Some(start) = state.start {
         line.to_frenet(start).s
     } else {
         let s = input.ego.s + input.config.lane_change_prepare_length;
         state.start = Some(line.to_cartesian(SlPoint { s, l: 0.0 }));
         s
     };
-    if start_s < input.ego.s {
-        return;
-    }
+    (end >= input.ego.s).then_some(end)
+}
+
+/// Keeps the ego out of the target lane up to the station `end`.
+pub(super) fn keep_out(bound: &mut [BoundPoint], stations: &[Station], input: &Input, end: f64) {
     let half_width = input.vehicle.half_width();
     let ego_l = input.ego.l;
     for (point, station) in bound
         .iter_mut()
         .zip(stations)
-        .take_while(|(point, _)| point.s <= start_s)
+        .take_while(|(point, _)| point.s <= end)
     {
         let (left, right) = match station.lane {
             // The original goes through the lane's frame and back.

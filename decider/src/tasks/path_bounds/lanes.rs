@@ -28,6 +28,8 @@ pub(super) struct LaneRules {
     pub buffer: f64,
     /// Whether it holds the ego whatever the configuration says.
     pub force_extend: bool,
+    /// Station up to which it holds the ego in full, however far away: there the ego may not yet leave its lane.
+    pub hold_until: Option<f64>,
 }
 
 /// The bound that the lanes leave, up to where nothing is left, and whose lane is borrowed: `None` when there is
@@ -39,7 +41,7 @@ pub(super) fn bound(
     rules: LaneRules,
 ) -> (Vec<BoundPoint>, Option<LaneType>) {
     let extension = (input.config.is_extend_lane_bounds_to_include_adc || rules.force_extend)
-        .then(|| Extension::new(input, stations[0].offset, rules.buffer));
+        .then(|| Extension::new(input, stations[0].offset, rules));
     let mut borrowed = None;
     let mut bound = Vec::with_capacity(stations.len());
 
@@ -180,7 +182,7 @@ struct Extension {
 }
 
 impl Extension {
-    fn new(input: &Input, offset: f64, buffer: f64) -> Self {
+    fn new(input: &Input, offset: f64, rules: LaneRules) -> Self {
         let config = input.config;
         let center = input.ego.l + offset;
         let l_dot = input.ego.l_dot;
@@ -188,10 +190,12 @@ impl Extension {
         let overshoot = if l_dot > 0.0 { overshoot } else { -overshoot };
         let half_width = input.vehicle.half_width();
         let hold = (input.ego.s_dot * config.ego_extension_hold_time).max(LEAST_EXTENSION.0);
+        let zone = rules.hold_until.map_or(0.0, |s| s - input.ego.s);
+        let hold = hold.max(zone);
         let fade = (input.ego.s_dot * config.ego_extension_fade_time).max(LEAST_EXTENSION.1);
         Self {
-            left: center.max(center + overshoot) + half_width + buffer,
-            right: center.min(center + overshoot) - half_width - buffer,
+            left: center.max(center + overshoot) + half_width + rules.buffer,
+            right: center.min(center + overshoot) - half_width - rules.buffer,
             fade: (!config.quirks.endless_ego_extension).then_some((hold, hold + fade)),
         }
     }

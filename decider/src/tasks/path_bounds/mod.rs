@@ -8,6 +8,7 @@ mod bound;
 mod columns;
 mod config;
 mod edges;
+mod forbidden;
 mod gaps;
 mod greedy;
 mod input;
@@ -31,6 +32,7 @@ pub(crate) use stations::station;
 use crate::frame::ObstacleId;
 use crate::reference_line::LineQuery;
 use crate::road::Side;
+use forbidden::Forbidden;
 use lanes::{LaneRules, OwnLane};
 use obstacles::{Beside, Passage, Widening};
 
@@ -91,6 +93,8 @@ struct Survey {
     stations: Vec<Station>,
     lane: Vec<OwnLane>,
     beside: Vec<Beside>,
+    /// What obstacles forbid all candidates but the fallback.
+    forbidden: Vec<Forbidden>,
 }
 
 impl Survey {
@@ -123,9 +127,11 @@ pub fn decide<L: LineQuery + ?Sized>(
     if stations.is_empty() {
         return Err(PathBoundsError::NoStations);
     }
+    let beside = obstacles::beside(&stations, input, &memory.passed);
     let survey = Survey {
         lane: lanes::own(&stations, input),
-        beside: obstacles::beside(&stations, input, &memory.passed),
+        forbidden: forbidden::intervals(input, &beside, Widening::regular(input.config)),
+        beside,
         stations,
     };
     let fallback = fallback(&survey, input);
@@ -137,7 +143,7 @@ pub fn decide<L: LineQuery + ?Sized>(
     result.push(Label::Fallback, fallback, blocker);
 
     if memory.pull_over.is_requested {
-        match pull_over::bound(&survey.stations, &survey.beside, line, input, memory) {
+        match pull_over::bound(&survey.stations, &survey.forbidden, line, input, memory) {
             Ok((points, passage)) => {
                 check_ego_inside(&points, input, Label::PullOver)?;
                 let blocker = passage.blocked_by.filter(|_| !input.config.quirks.silent_blocker);
@@ -171,16 +177,13 @@ fn fallback(survey: &Survey, input: &Input) -> Made {
         borrow: Borrow::None,
         buffer: FALLBACK_EGO_BUFFER,
         force_extend: true,
+        hold_until: None,
     };
     let (mut points, _) = survey.lane_bound(input, rules);
     let mut passage = Passage::default();
     if !input.config.quirks.fallback_ignores_obstacles {
-        let config = input.config;
-        let widening = Widening {
-            lateral: config.fallback_obstacle_lat_buffer,
-            hard: config.hard_obstacle_lat_buffer,
-        };
-        passage = obstacles::limit(&mut points, input, &survey.beside, widening);
+        let forbidden = forbidden::intervals(input, &survey.beside, Widening::fallback(input.config));
+        passage = obstacles::limit(&mut points, input, &forbidden);
         // An ego that already touches a widened obstacle still needs a bound to brake in.
         if points.is_empty() {
             (points, _) = survey.lane_bound(input, rules);
@@ -201,20 +204,18 @@ fn lane_change<L: LineQuery + ?Sized>(
     input: &Input,
     memory: &mut Memory,
 ) -> Result<(), PathBoundsError> {
+    let zone_end = lane_change::zone_end(line, input, &mut memory.change_lane);
     let rules = LaneRules {
         borrow: Borrow::None,
         buffer: EGO_BUFFER,
         force_extend: true,
+        hold_until: zone_end,
     };
     let (mut points, _) = survey.lane_bound(input, rules);
-    lane_change::keep_out(
-        &mut points,
-        &survey.stations,
-        line,
-        input,
-        &mut memory.change_lane,
-    );
-    let made = around_obstacles(points, input, &survey.beside);
+    if let Some(end) = zone_end {
+        lane_change::keep_out(&mut points, &survey.stations, input, end);
+    }
+    let made = around_obstacles(points, input, &survey.forbidden);
     if made.points.is_empty() {
         if input.config.quirks.lane_change_discards_fallback {
             return Err(PathBoundsError::EmptyLaneChange);
@@ -239,11 +240,12 @@ fn regular(result: &mut PathBounds, survey: &Survey, input: &Input) -> Result<()
             borrow: *borrow,
             buffer: EGO_BUFFER,
             force_extend: false,
+            hold_until: None,
         };
         let (points, Some(lane)) = survey.lane_bound(input, rules) else {
             continue;
         };
-        let made = around_obstacles(points, input, &survey.beside);
+        let made = around_obstacles(points, input, &survey.forbidden);
         if made.points.is_empty() {
             continue;
         }
@@ -261,14 +263,10 @@ fn regular(result: &mut PathBounds, survey: &Survey, input: &Input) -> Result<()
 }
 
 /// Narrows a lane bound to a way around static obstacles.
-fn around_obstacles(mut points: Vec<BoundPoint>, input: &Input, beside: &[Beside]) -> Made {
+fn around_obstacles(mut points: Vec<BoundPoint>, input: &Input, forbidden: &[Forbidden]) -> Made {
     let pads = input.config.quirks.pad_through_blocker;
     let open = if pads { points.clone() } else { Vec::new() };
-    let widening = Widening {
-        lateral: input.config.obstacle_lat_buffer,
-        hard: input.config.hard_obstacle_lat_buffer,
-    };
-    let passage = obstacles::limit(&mut points, input, beside, widening);
+    let passage = obstacles::limit(&mut points, input, forbidden);
     let mut padding = 0;
     if passage.blocked_by.is_some() && pads {
         let tail = open.iter().skip(points.len()).take(PADDING);

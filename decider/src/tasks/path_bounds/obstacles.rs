@@ -1,6 +1,8 @@
 //! Which obstacles a bound goes around, and how they close it.
 
 use super::bound::BoundPoint;
+use super::config::PathBoundsConfig;
+use super::forbidden::Forbidden;
 use super::input::{Input, ObstacleSl};
 use super::stations::{self, Station};
 use super::{gaps, greedy};
@@ -14,6 +16,23 @@ pub(super) struct Widening {
     pub lateral: f64,
     /// Down to which the lateral widening gives way beside the ego, m.
     pub hard: f64,
+}
+
+impl Widening {
+    /// For every bound but the fallback.
+    pub(super) fn regular(config: &PathBoundsConfig) -> Self {
+        Self {
+            lateral: config.obstacle_lat_buffer,
+            hard: config.hard_obstacle_lat_buffer,
+        }
+    }
+
+    pub(super) fn fallback(config: &PathBoundsConfig) -> Self {
+        Self {
+            lateral: config.fallback_obstacle_lat_buffer,
+            hard: config.hard_obstacle_lat_buffer,
+        }
+    }
 }
 
 /// An obstacle in scope and the stations beside it: the same for all candidates of a call.
@@ -47,12 +66,21 @@ pub(super) struct Passage {
 /// the input.
 pub(super) fn beside(stations: &[Station], input: &Input, remembered: &[(ObstacleId, Side)]) -> Vec<Beside> {
     let config = input.config;
+    // Of an id that is there twice the first one counts, as the sort is stable.
+    let mut remembered = remembered.to_vec();
+    remembered.sort_by_key(|(id, _)| *id);
+    let passed = |id: ObstacleId| {
+        let place = remembered.partition_point(|(other, _)| *other < id);
+        remembered
+            .get(place)
+            .filter(|(other, _)| *other == id)
+            .map(|(_, side)| *side)
+    };
     let mut all: Vec<Beside> = Vec::with_capacity(input.obstacles.len());
     for obstacle in input.obstacles.iter().filter(|o| is_in_scope(o, input)) {
         let first = stations::count_until(stations, obstacle.start_s - config.obstacle_lon_start_buffer);
         let past = stations::count_until(stations, obstacle.end_s + config.obstacle_lon_end_buffer);
         if first < past {
-            let before = remembered.iter().find(|(id, _)| *id == obstacle.id);
             all.push(Beside {
                 id: obstacle.id,
                 first,
@@ -60,7 +88,7 @@ pub(super) fn beside(stations: &[Station], input: &Input, remembered: &[(Obstacl
                 start_s: obstacle.start_s,
                 start_l: obstacle.start_l,
                 end_l: obstacle.end_l,
-                remembered: before.map(|(_, side)| *side),
+                remembered: passed(obstacle.id),
             });
         }
     }
@@ -74,19 +102,14 @@ pub(super) fn beside(stations: &[Station], input: &Input, remembered: &[(Obstacl
 }
 
 /// Narrows `bound` to one way around all static obstacles; ends it where there is none.
-pub(super) fn limit(
-    bound: &mut Vec<BoundPoint>,
-    input: &Input,
-    beside: &[Beside],
-    widening: Widening,
-) -> Passage {
+pub(super) fn limit(bound: &mut Vec<BoundPoint>, input: &Input, forbidden: &[Forbidden]) -> Passage {
     if bound.is_empty() {
         return Passage::default();
     }
     if input.config.quirks.greedy_sides {
         greedy::limit(bound, input)
     } else {
-        gaps::limit(bound, input, beside, widening)
+        gaps::limit(bound, input, forbidden)
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::bound::{BoundPoint, EdgeCause};
 use super::edges::{Limit, narrow, unbounded};
+use super::forbidden::Forbidden;
 use super::input::{Input, Memory, PullOver, PullOverPlace};
-use super::obstacles::{self, Beside, Passage, Widening};
+use super::obstacles::{self, Passage};
 use super::stations::Station;
 use super::{road, search};
 use crate::reference_line::{LineQuery, SlPoint};
@@ -46,7 +47,7 @@ pub enum PullOverRefusal {
 /// On refusal the place in memory is cleared (once the search has begun), the request stays.
 pub(super) fn bound<L: LineQuery + ?Sized>(
     stations: &[Station],
-    beside: &[Beside],
+    forbidden: &[Forbidden],
     line: &L,
     input: &Input,
     memory: &mut Memory,
@@ -58,11 +59,7 @@ pub(super) fn bound<L: LineQuery + ?Sized>(
         return Err(PullOverRefusal::OutsideRoad);
     }
     keep_in_lane(&mut bound, stations, input);
-    let widening = Widening {
-        lateral: input.config.obstacle_lat_buffer,
-        hard: input.config.hard_obstacle_lat_buffer,
-    };
-    let passage = obstacles::limit(&mut bound, input, beside, widening);
+    let passage = obstacles::limit(&mut bound, input, forbidden);
     if bound.is_empty() {
         return Err(PullOverRefusal::NoPlace);
     }

@@ -46,8 +46,9 @@ impl Envelope {
             speeds[k] = speeds[k].min(limit);
             speeds[k + 1] = speeds[k + 1].min(limit);
         }
-        for (speed, point) in speeds.iter_mut().zip(&path.points) {
-            *speed = speed.min(room_limit(scene, point));
+        for (speed, pair) in speeds.iter_mut().zip(path.points.windows(2)) {
+            let slope = (pair[1].l - pair[0].l) / (pair[1].s - pair[0].s);
+            *speed = speed.min(room_limit(scene, &pair[0], slope));
         }
         for k in (0..speeds.len() - 1).rev() {
             let gap = path.points[k + 1].distance - path.points[k].distance;
@@ -81,17 +82,21 @@ fn steering_limit(scene: &Scene, from: &PathPoint, to: &PathPoint) -> f64 {
 }
 
 /// The speed that the room beside the body allows, where something stands.
-fn room_limit(scene: &Scene, point: &PathPoint) -> f64 {
+fn room_limit(scene: &Scene, point: &PathPoint, slope: f64) -> f64 {
     let vehicle = scene.vehicle;
     let beside = |obstacle: &&ObstacleSl| {
         obstacle.is_static
             && point.s + vehicle.front_edge_to_center > obstacle.start_s
             && point.s - vehicle.back_edge_to_center < obstacle.end_s
     };
-    let room = |obstacle: &ObstacleSl| {
-        let (left, right) = (obstacle.start_l - point.l, point.l - obstacle.end_l);
-        left.max(right) - vehicle.half_width()
+    let room_at = |s: f64, obstacle: &ObstacleSl| {
+        let ahead = (s - point.s).clamp(-vehicle.back_edge_to_center, vehicle.front_edge_to_center);
+        let l = point.l + slope * ahead;
+        (obstacle.start_l - l).max(l - obstacle.end_l) - vehicle.half_width()
     };
+    // The body crosses the line at an angle: what counts is where its ends are beside the obstacle.
+    let room =
+        |obstacle: &ObstacleSl| room_at(obstacle.start_s, obstacle).min(room_at(obstacle.end_s, obstacle));
     let room = scene
         .obstacles
         .iter()

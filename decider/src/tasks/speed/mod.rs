@@ -35,7 +35,7 @@ pub struct SpeedConfig {
     pub lateral_acceleration: f64,
     /// Gap to something that blocks the path, m (the original's `min_stop_distance_obstacle`).
     pub stop_distance: f64,
-    /// The same where a neighbouring lane may serve to pass it: a car that cannot reverse needs the room.
+    /// The same where it may be passed through another lane: a car that cannot reverse needs the room.
     pub pull_out_distance: f64,
     /// Least such gap where the car came upon it late, m.
     pub least_stop_distance: f64,
@@ -84,13 +84,23 @@ pub struct Planned {
     pub stop: Option<Stop>,
 }
 
-/// Plans the speed along `path`; `stop_at` is a place to stop at for its own sake, `before` what the last tick
-/// slowed down for.
-pub fn plan(scene: &Scene, path: &Path, stop_at: Option<Stop>, before: Option<Stop>) -> Planned {
-    let stop = nearest_stop(scene, path, stop_at);
+/// What a plan has to know beside the scene and the path.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Purpose {
+    /// A place to stop at for its own sake.
+    pub stop_at: Option<Stop>,
+    /// What the last tick slowed down for.
+    pub before: Option<Stop>,
+    /// Whether what blocks the path may be passed through another lane, now or when that is free.
+    pub may_pull_out: bool,
+}
+
+/// Plans the speed along `path`.
+pub fn plan(scene: &Scene, path: &Path, purpose: Purpose) -> Planned {
+    let stop = nearest_stop(scene, path, purpose);
     let claims = claims(scene, path);
     let envelope = limits::Envelope::new(scene, path);
-    let yielded_to = before.and_then(|stop| match stop.cause {
+    let yielded_to = purpose.before.and_then(|stop| match stop.cause {
         StopCause::Yield(id) => Some(id),
         _ => None,
     });
@@ -98,10 +108,10 @@ pub fn plan(scene: &Scene, path: &Path, stop_at: Option<Stop>, before: Option<St
 }
 
 /// The first of the given stop, the path's blocker and the path's end.
-fn nearest_stop(scene: &Scene, path: &Path, stop_at: Option<Stop>) -> Stop {
+fn nearest_stop(scene: &Scene, path: &Path, purpose: Purpose) -> Stop {
     let end = match path.blocked_by {
         Some(id) => Stop {
-            distance: before_blocker(scene, path, id),
+            distance: before_blocker(scene, path, id, purpose.may_pull_out),
             cause: StopCause::Blocked(id),
         },
         None if ends_with_line(scene, path) => Stop {
@@ -114,7 +124,8 @@ fn nearest_stop(scene: &Scene, path: &Path, stop_at: Option<Stop>) -> Stop {
         },
     };
     // A place chosen to stop at needs no gap beyond what its own search has kept.
-    stop_at
+    purpose
+        .stop_at
         .filter(|stop| stop.distance <= path.length())
         .unwrap_or(end)
 }
@@ -124,29 +135,22 @@ fn ends_with_line(scene: &Scene, path: &Path) -> bool {
     path.end_s() + 2.0 > scene.line.length()
 }
 
-/// Where to stand before a blocker: the wanted gap if it can be kept in comfort, else what is left of it.
-fn before_blocker(scene: &Scene, path: &Path, id: ObstacleId) -> f64 {
+/// Where to stand before a blocker: the wanted gap if it can be kept in comfort, else what is left of it. Pulling
+/// out takes more room than standing.
+fn before_blocker(scene: &Scene, path: &Path, id: ObstacleId, may_pull_out: bool) -> f64 {
     let config = &scene.config.speed;
     let contact = scene.obstacle(id).map_or(path.length(), |obstacle| {
         distance_at(path, obstacle.start_s - scene.vehicle.front_edge_to_center)
     });
     let contact = contact.min(path.length() + 1.0);
-    let v = scene.start.v;
-    let comfortable = v * v / (2.0 * config.braking);
-    let wanted = contact - wanted_gap(scene);
-    let least = contact - config.least_stop_distance;
-    wanted.max(comfortable.min(least)).min(path.length()).max(0.0)
-}
-
-/// Gap to leave to a blocker: room to pull out where there is a lane to pull out into.
-fn wanted_gap(scene: &Scene) -> f64 {
-    let config = &scene.config.speed;
-    let here = scene.line.sample_at(scene.ego.s);
-    if here.neighbours.iter().any(Option::is_some) {
+    let gap = if may_pull_out {
         config.pull_out_distance
     } else {
         config.stop_distance
-    }
+    };
+    rules::stop_before(config, scene.start.v, contact, gap)
+        .min(path.length())
+        .max(0.0)
 }
 
 /// Arc length along the path at station `s`, going on straight beyond its end.

@@ -2,7 +2,7 @@
 
 use super::limits::Envelope;
 use super::overlap::Claim;
-use super::rules::{self, BRAKE_LATE};
+use super::rules::{self, BRAKE_LATE, Motion};
 use super::{Planned, SpeedConfig};
 use crate::decision::{PathPoint, Stop, StopCause, TrajectoryPoint};
 use crate::frame::ObstacleId;
@@ -38,6 +38,12 @@ struct State {
     distance: f64,
     v: f64,
     a: f64,
+}
+
+impl State {
+    fn motion(&self) -> Motion {
+        Motion { v: self.v, a: self.a }
+    }
 }
 
 /// How a claim is dealt with.
@@ -153,7 +159,7 @@ impl Planner<'_> {
         };
         rules::stop(
             self.config,
-            state.v,
+            state.motion(),
             self.stop.distance - state.distance,
             patience,
             RESTART,
@@ -170,8 +176,9 @@ impl Planner<'_> {
                 rules::follow(self.config, state.v, claim.s_dot, gap, self.scene.cruise_speed)
             }),
             Response::Yield => fence(claim, state).map_or(free, |fence| {
-                let gap = fence - self.config.follow_distance - state.distance;
-                rules::stop(self.config, state.v, gap, BRAKE_LATE, RESTART_IN_TRAFFIC)
+                let ahead = fence - state.distance;
+                let gap = rules::stop_before(self.config, state.v, ahead, self.config.follow_distance);
+                rules::stop(self.config, state.motion(), gap, BRAKE_LATE, RESTART_IN_TRAFFIC)
             }),
         }
     }
@@ -189,7 +196,8 @@ impl Planner<'_> {
         } else {
             config.jerk
         };
-        let mut a = wanted.clamp(state.a - jerk * STEP, state.a + jerk * STEP);
+        let release = jerk.max(rules::release(state.a));
+        let mut a = wanted.clamp(state.a - jerk * STEP, state.a + release * STEP);
         let mut v = state.v + a * STEP;
         if v < STANDSTILL && a <= 0.0 {
             v = 0.0;

@@ -129,6 +129,40 @@ fn the_zone_before_a_change_of_lane() {
     assert_eq!(causes(&bound, 110.5).1, EdgeCause::LaneLine);
 }
 
+/// Where the zone ends the ego is still where it was: from there the bound leads into the target lane without a jump.
+#[test]
+fn the_zone_before_a_change_of_lane_lets_out_into_the_target_lane() {
+    for (ego_l, s_dot) in [
+        (-3.5, 0.0),
+        (-3.5, 8.0),
+        (-2.0, 8.0),
+        (-1.2, 8.0),
+        (1.5, 8.0),
+        (3.4, 2.0),
+    ] {
+        let mut setup = Setup::fixed().with(|setup| {
+            setup.is_change_lane = true;
+            setup.ego.l = ego_l;
+            setup.ego.s_dot = s_dot;
+        });
+        let bound = setup.bound(Label::LaneChange);
+        for point in bound.points.iter().take_while(|point| point.s <= 110.0) {
+            assert!(
+                point.l_min <= ego_l && ego_l <= point.l_max,
+                "the ego at {ego_l} is outside {point:?}"
+            );
+        }
+        for pair in bound.points.windows(2) {
+            assert!(
+                pair[0].l_min <= pair[1].l_max && pair[1].l_min <= pair[0].l_max,
+                "{pair:?}"
+            );
+        }
+        let last = bound.points.last().unwrap();
+        assert_eq!((last.l_min, last.l_max), (-0.695, 0.695), "and ends in it");
+    }
+}
+
 /// Nothing is left unbounded, and no cause is named that is not there.
 #[test]
 fn no_edge_is_unbounded() {
