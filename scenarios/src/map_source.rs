@@ -1,12 +1,15 @@
 //! Finds and reads the map that a scenario names, once for all its seeds.
 
 use crate::error::{Place, ScenarioError};
-use crate::import::{commonroad, opendrive};
+use crate::import::{commonroad, lanelet2, opendrive};
 use crate::maps;
 use corridor_decider::road::RoadMap;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
+
+/// Endings of map files.
+const MAP_ENDINGS: [&str; 3] = ["xodr", "osm", "xml"];
 
 /// Stands for the folder of shared maps in a scenario's map path.
 const MAPS_PREFIX: &str = "$MAPS/";
@@ -89,7 +92,7 @@ impl MapCache {
         } else {
             let text = maps::embedded(name).ok_or_else(|| {
                 not_found(format!(
-                    "expected one of {} or a path ending in `.xodr` or `.xml`",
+                    "expected one of {} or a path ending in `.xodr`, `.osm` or `.xml`",
                     own_maps()
                 ))
             })?;
@@ -110,6 +113,7 @@ impl MapCache {
     }
 }
 
+/// Reads a map by what its text begins with: a trace knows no file name.
 fn read(text: Arc<str>) -> Result<LoadedMap, String> {
     if commonroad::is_commonroad(&text) {
         let read = commonroad::read(&text).map_err(|e| e.to_string())?;
@@ -119,12 +123,24 @@ fn read(text: Arc<str>) -> Result<LoadedMap, String> {
             warnings: read.warnings.into(),
         });
     }
-    let import = opendrive::read(&text).map_err(|e| e.to_string())?;
+    let (map, warnings) = if is_lanelet2(&text) {
+        let import = lanelet2::read(&text).map_err(|e| e.to_string())?;
+        (import.map, import.warnings)
+    } else {
+        let import = opendrive::read(&text).map_err(|e| e.to_string())?;
+        (import.map, import.warnings)
+    };
     Ok(LoadedMap {
-        map: Arc::new(import.map),
+        map: Arc::new(map),
         text,
-        warnings: import.warnings.into(),
+        warnings: warnings.into(),
     })
+}
+
+/// Whether the root element is that of Lanelet2.
+fn is_lanelet2(text: &str) -> bool {
+    let root = |name: &str| text.find(name).unwrap_or(usize::MAX);
+    root("<osm") < root("<OpenDRIVE")
 }
 
 /// The own maps, for a message.
@@ -137,7 +153,7 @@ fn is_path(name: &str) -> bool {
     name.contains(['/', '\\'])
         || Path::new(name)
             .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("xodr") || e.eq_ignore_ascii_case("xml"))
+            .is_some_and(|e| MAP_ENDINGS.iter().any(|known| e.eq_ignore_ascii_case(known)))
 }
 
 /// The path that a map name means, or where it was looked for in vain.
@@ -168,4 +184,20 @@ fn shared_maps() -> PathBuf {
         || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/maps"),
         PathBuf::from,
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_text_tells_its_format() {
+        let problem = |text: &str| MapCache::holding(text).map(|_| ()).unwrap_err();
+        assert_eq!(
+            problem("<?xml version='1.0'?><osm/>"),
+            "the map has no drivable lane"
+        );
+        let osm_inside = problem("<OpenDRIVE><road><osm/></road></OpenDRIVE>");
+        assert!(osm_inside.contains("<road> has no `id`"), "{osm_inside}");
+    }
 }

@@ -5,5 +5,6 @@
 //! `CORRIDOR_REQUIRE_MAPS` is set.
 
 mod commonroad;
+mod lanelet2;
 mod opendrive;
 mod support;

@@ -5,6 +5,7 @@
 
 pub mod commonroad;
 mod error;
+pub mod lanelet2;
 mod lanelets;
 mod notes;
 pub mod opendrive;

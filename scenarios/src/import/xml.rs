@@ -204,6 +204,17 @@ impl<'a> Element<'a> {
             .map_err(|_| self.error(format!("has {attribute}=\"{}\"", shortened(text)), "a number"))
     }
 
+    /// A number that names an element: whole, of 64 bits, negative too.
+    pub(crate) fn id(self, attribute: &str) -> Result<i64, ImportError> {
+        let text = self.required_text(attribute)?;
+        text.parse::<i64>().map_err(|_| {
+            self.error(
+                format!("has {attribute}=\"{}\"", shortened(text)),
+                "a whole number of at most 64 bits",
+            )
+        })
+    }
+
     /// A whole number, such as a lane id.
     pub(crate) fn integer(self, attribute: &str) -> Result<i32, ImportError> {
         let text = self.required_text(attribute)?;

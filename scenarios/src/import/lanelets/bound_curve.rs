@@ -16,6 +16,10 @@ const CORNER: f64 = std::f64::consts::FRAC_PI_4;
 /// Farthest that the curve leaves the chord, m: the rise of a 10 m chord in a bend of 50 m.
 const BULGE: f64 = 0.25;
 
+/// How much longer than its neighbour a chord may be to take part in their circle fully. A short last piece says
+/// little about the bend of a long one.
+const EVEN: f64 = 3.0;
+
 /// A cubic over a chord, by the angles at which it leaves it.
 #[derive(Clone, Copy, Debug)]
 struct Piece {
@@ -79,8 +83,13 @@ impl BoundCurve {
         }
     }
 
+    /// The curve as a polyline of `steps` even steps.
+    pub(super) fn drawn(&self, steps: usize) -> Vec<Vec2> {
+        (0..=steps).map(|k| self.at(k as f64 / steps as f64)).collect()
+    }
+
     /// The point at a share of the length, from 0 to 1.
-    pub(super) fn at(&self, share: f64) -> Vec2 {
+    fn at(&self, share: f64) -> Vec2 {
         if self.pieces.is_empty() {
             return self.first;
         }
@@ -120,8 +129,9 @@ fn knot_angles(before: Vec2, after: Vec2) -> (f64, f64) {
         return (0.0, 0.0);
     }
     // On a circle a tangent leaves a chord by an angle in proportion to the chord's length.
-    let share = before.norm() / (before.norm() + after.norm());
-    (turn * share, turn * share - turn)
+    let (a, b) = (before.norm(), after.norm());
+    let part = |own: f64, other: f64| turn * own / (own + other) * (EVEN * other / own).min(1.0);
+    (part(a, b), -part(b, a))
 }
 
 /// The first and the last piece go on bending as their inner ends do.

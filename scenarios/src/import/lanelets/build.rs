@@ -9,7 +9,9 @@ use super::section::{Beside, lane_points};
 use super::smooth::smooth;
 use super::surface::far_bounds;
 use crate::import::ImportError;
-use corridor_decider::road::{BoundaryType, Junction, JunctionId, Lane, LaneId, LanePoint, Mark, RoadMap, Side};
+use corridor_decider::road::{
+    BoundaryType, Junction, JunctionId, Lane, LaneId, LanePoint, Mark, RoadMap, Side,
+};
 
 /// A lane that is nowhere wider is left out, m.
 const CLOSED: f64 = 1e-3;
@@ -44,11 +46,10 @@ fn all_points(
     let poses = end_poses(strips, links);
     let mut all = Vec::with_capacity(strips.len());
     for (number, strip) in strips.iter().enumerate() {
-        let Some(strip) = strip else {
+        let (Some(strip), Some([start, end])) = (strip, poses[number]) else {
             all.push(Vec::new());
             continue;
         };
-        let [start, end] = poses[number];
         let line = smooth(strip.centre.points(), start, end);
         let far = |side| far_bounds(source.lanelets, neighbours, number, side);
         let beside = Beside {
@@ -100,7 +101,9 @@ fn lanes(
             name: lanelet.name.clone(),
             kind: lanelet.kind,
             road: source.lanelets[roads[number]].name.clone(),
-            junction: junction.and_then(|place| u32::try_from(place).ok()).map(JunctionId),
+            junction: junction
+                .and_then(|place| u32::try_from(place).ok())
+                .map(JunctionId),
             points,
             left_marks: marks(lanelet.left_mark),
             right_marks: marks(lanelet.right_mark),
@@ -132,5 +135,9 @@ fn roads(neighbours: &[[Option<usize>; 4]]) -> Vec<usize> {
             }
         }
     }
-    roads.into_iter().enumerate().map(|(own, road)| road.unwrap_or(own)).collect()
+    roads
+        .into_iter()
+        .enumerate()
+        .map(|(own, road)| road.unwrap_or(own))
+        .collect()
 }

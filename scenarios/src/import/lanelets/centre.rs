@@ -1,10 +1,11 @@
 //! The middle between two bounds, before smoothing. World frame, metres.
 
 use super::bound_curve::BoundCurve;
+use super::budget::Budget;
 use super::polyline::Polyline;
 use super::{Lanelet, Source};
-use super::budget::Budget;
 use crate::import::ImportError;
+use corridor_decider::geometry::Vec2;
 
 /// Distance of cross-sections, m.
 const SPACING: f64 = 0.5;
@@ -33,19 +34,25 @@ pub(super) fn strip(
     };
     let steps = steps(f64::midpoint(left.length(), right.length()));
     budget.cross_sections(2.0 * steps, number, source)?;
-    let (left_curve, right_curve) = (BoundCurve::through(&left), BoundCurve::through(&right));
-    let middle: Vec<_> = (0..=whole(steps))
-        .map(|k| {
-            let share = k as f64 / steps;
-            (left_curve.at(share) + right_curve.at(share)) / 2.0
-        })
+    let count = whole(steps);
+    let (left_drawn, right_drawn) = (
+        BoundCurve::through(&left).drawn(count),
+        BoundCurve::through(&right).drawn(count),
+    );
+    let middle: Vec<Vec2> = left_drawn
+        .iter()
+        .zip(&right_drawn)
+        .map(|(a, b)| (a + b) / 2.0)
         .collect();
-    let Some(middle) = Polyline::new(&middle).filter(|line| line.length() > LEAST_LENGTH) else {
-        return Ok(None);
-    };
-    let even = middle.resampled(whole(self::steps(middle.length())));
-    let centre = Polyline::new(&even).filter(|line| line.points().len() > 1);
+    let centre = evenly_spaced(&middle);
     Ok(centre.map(|centre| Strip { left, right, centre }))
+}
+
+/// The line through some points in even steps of half a metre or a little less, at least one.
+fn evenly_spaced(points: &[Vec2]) -> Option<Polyline> {
+    let line = Polyline::new(points).filter(|line| line.length() > LEAST_LENGTH)?;
+    let even = line.resampled(whole(steps(line.length())));
+    Polyline::new(&even).filter(|line| line.points().len() > 1)
 }
 
 /// How many steps of half a metre at most a length takes.

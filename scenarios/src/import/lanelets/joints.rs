@@ -1,52 +1,93 @@
-//! Heading and curvature where lanes begin, end and meet, the same for all lanes of a joint.
+//! Position, heading and curvature where lanes begin, end and meet, the same for all lanes of a joint.
 //!
-//! From the circle through three points of the centre lines, one of them the joint. Where a lane forks, the pair of
-//! lanes that bends least counts most: through traffic goes straight on, and who turns begins to turn.
+//! They are those of the smooth line through the joint: the centre lines some metres before and behind it are put
+//! together and smoothed as one. So a lane of 0.2 m is held at both ends by nearly the same line. Where lanes fork, the
+//! pair that bends least makes the line: through traffic goes straight on, and who turns begins to turn.
 
 use super::centre::Strip;
-use super::smooth::EndPose;
+use super::smooth::{CurvePoint, curve_point, graduated};
 use corridor_decider::geometry::{Vec2, angle, cross};
 
-/// How far from a joint the circle's other points lie, m: as far as the smoothing reaches.
+/// How far to both sides of a joint its line is looked at, m: beyond five times the length of the smoothing nothing is felt.
+const REACH: f64 = 10.0;
+
+/// Distance of the points of that line, m.
+const STEP: f64 = 0.5;
+
+/// How far into both lanes the bend between them is measured, m.
 const LOOK: f64 = 2.0;
 
-/// How many lanes that are too short for that are walked through.
-const MOST_LANES: usize = 16;
+/// How many short lanes are walked through.
+const MOST_LANES: usize = 64;
 
-/// Pairs of lanes that bend by less than this count alike, rad.
-const STRAIGHT: f64 = 0.02;
+/// Curvature is cut off here, 1/m: a kink of a real file, not a bend.
+const MAX_CURVATURE: f64 = 2.0;
 
-/// Curvature is cut off here, 1/m: no car turns on two metres.
-const MAX_CURVATURE: f64 = 0.5;
-
-/// Links by strip.
+/// Links by strip. The first one is that along which the line bends least.
+#[derive(Debug)]
 pub(super) struct Links {
     pub(super) predecessors: Vec<Vec<usize>>,
     pub(super) successors: Vec<Vec<usize>>,
 }
 
-/// How every strip begins and ends. Strips that are not there get a default.
-pub(super) fn end_poses(strips: &[Option<Strip>], links: &Links) -> Vec<[EndPose; 2]> {
+/// Which way a walk goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Way {
+    Back,
+    Ahead,
+}
+
+/// How every strip begins and ends.
+pub(super) fn end_poses(strips: &[Option<Strip>], links: &Links) -> Vec<Option<[CurvePoint; 2]>> {
     let walk = Walk { strips, links };
     let joints = joints(links);
-    let mut sums = vec![Sum::default(); 2 * strips.len()];
+    // The pair of strips that bends least at each joint.
+    let mut pairs: Vec<Option<(f64, usize, usize)>> = vec![None; joints.len()];
     for (from, successors) in links.successors.iter().enumerate() {
         for &to in successors {
-            sums[joints[exit(from)]].add(&walk.across(from, to));
+            let best = &mut pairs[joints[exit(from)]];
+            let bend = bend(strips, from, to);
+            if best.is_none_or(|(least, ..)| bend < least) {
+                *best = Some((bend, from, to));
+            }
         }
     }
-    let mut poses = vec![[EndPose::default(); 2]; strips.len()];
-    for (number, strip) in strips.iter().enumerate() {
-        if let Some(strip) = strip {
-            let begins = sums[joints[entry(number)]].mean();
-            let ends = sums[joints[exit(number)]].mean();
-            poses[number] = [
-                begins.unwrap_or_else(|| walk.free_start(number, strip)),
-                ends.unwrap_or_else(|| walk.free_end(number, strip)),
-            ];
+    let poses: Vec<Option<CurvePoint>> = pairs
+        .iter()
+        .map(|pair| pair.and_then(|(_, from, to)| walk.pose(Some(from), Some(to))))
+        .collect();
+    let ends = |(number, strip): (usize, &Option<Strip>)| {
+        strip.as_ref()?;
+        let begins = poses[joints[entry(number)]].or_else(|| walk.pose(None, Some(number)))?;
+        let ends = poses[joints[exit(number)]].or_else(|| walk.pose(Some(number), None))?;
+        Some([begins, ends])
+    };
+    strips.iter().enumerate().map(ends).collect()
+}
+
+impl Links {
+    /// Sorts the links of every strip.
+    pub(super) fn straightest_first(mut self, strips: &[Option<Strip>]) -> Self {
+        let order = |a: f64, b: f64| a.total_cmp(&b);
+        for (number, list) in self.successors.iter_mut().enumerate() {
+            list.sort_by(|a, b| order(bend(strips, number, *a), bend(strips, number, *b)));
         }
+        for (number, list) in self.predecessors.iter_mut().enumerate() {
+            list.sort_by(|a, b| order(bend(strips, *a, number), bend(strips, *b, number)));
+        }
+        self
     }
-    poses
+}
+
+/// By how much the line from one strip into another bends, rad; infinite where a strip is missing.
+pub(super) fn bend(strips: &[Option<Strip>], from: usize, to: usize) -> f64 {
+    let (Some(a), Some(b)) = (&strips[from], &strips[to]) else {
+        return f64::INFINITY;
+    };
+    let (a, b) = (&a.centre, &b.centre);
+    let before = a.last() - a.at(a.length() - LOOK);
+    let after = b.at(LOOK) - b.first();
+    libm::atan2(cross(before, after), before.dot(&after)).abs()
 }
 
 fn entry(strip: usize) -> usize {
@@ -78,55 +119,6 @@ fn root(parents: &mut [usize], mut end: usize) -> usize {
     end
 }
 
-/// How the line bends from one chord into another.
-struct Bend {
-    turn: f64,
-    pose: EndPose,
-}
-
-/// The bend at the end of `before` and the start of `after`, which are short chords of one circle.
-fn bend(before: Vec2, after: Vec2) -> Option<Bend> {
-    let (a, b) = (before.norm(), after.norm());
-    if !(a > 0.0 && b > 0.0) {
-        return None;
-    }
-    let turn = libm::atan2(cross(before, after), before.dot(&after));
-    let theta = angle::wrap(libm::atan2(before.y, before.x) + turn * a / (a + b));
-    let kappa = (2.0 * turn / (a + b)).clamp(-MAX_CURVATURE, MAX_CURVATURE);
-    Some(Bend {
-        turn,
-        pose: EndPose { theta, kappa },
-    })
-}
-
-/// A weighted sum of bends.
-#[derive(Clone, Debug, Default)]
-struct Sum {
-    direction: Vec2,
-    kappa: f64,
-    weight: f64,
-}
-
-impl Sum {
-    fn add(&mut self, bend: &Option<Bend>) {
-        let Some(Bend { turn, pose }) = bend else {
-            return;
-        };
-        let weight = 1.0 / (turn * turn + STRAIGHT * STRAIGHT);
-        let (sin, cos) = angle::sin_cos(pose.theta);
-        self.direction += Vec2::new(cos, sin) * weight;
-        self.kappa += pose.kappa * weight;
-        self.weight += weight;
-    }
-
-    fn mean(&self) -> Option<EndPose> {
-        (self.weight > 0.0 && self.direction.norm() > 0.0).then(|| EndPose {
-            theta: libm::atan2(self.direction.y, self.direction.x),
-            kappa: self.kappa / self.weight,
-        })
-    }
-}
-
 /// Walks along centre lines and through the lanes linked to them.
 struct Walk<'a> {
     strips: &'a [Option<Strip>],
@@ -134,68 +126,87 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// The bend from one strip into another.
-    fn across(&self, from: usize, to: usize) -> Option<Bend> {
-        let (a, b) = (self.strips[from].as_ref()?, self.strips[to].as_ref()?);
-        bend(
-            a.centre.last() - self.behind(from, LOOK),
-            self.ahead(to, LOOK) - b.centre.first(),
-        )
+    /// The line through the end of one strip and the start of another, there. One of them may be missing.
+    fn pose(&self, from: Option<usize>, to: Option<usize>) -> Option<CurvePoint> {
+        let before = from
+            .map(|strip| self.points(strip, Way::Back))
+            .unwrap_or_default();
+        let after = to.map(|strip| self.points(strip, Way::Ahead)).unwrap_or_default();
+        let start = to.and_then(|strip| Some(self.strips[strip].as_ref()?.centre.first()));
+        let joint = start.or_else(|| Some(self.strips[from?].as_ref()?.centre.last()))?;
+        let mut line: Vec<Vec2> = before.iter().rev().copied().collect();
+        line.push(joint);
+        line.extend(&after);
+        Some(pose_at(&line, before.len()))
     }
 
-    /// How a strip begins that nothing leads to: on the circle of its first metres.
-    fn free_start(&self, number: usize, strip: &Strip) -> EndPose {
-        let (first, near, far) = (strip.centre.first(), self.ahead(number, LOOK), self.ahead(number, 2.0 * LOOK));
-        free_pose(near - first, far - near, -1.0)
+    /// Points at even distances from the end of a strip backwards or from its start ahead.
+    fn points(&self, strip: usize, way: Way) -> Vec<Vec2> {
+        let mut points = Vec::new();
+        let mut distance = STEP;
+        while distance <= REACH {
+            let (point, reached) = self.point(strip, way, distance);
+            if reached < distance {
+                break;
+            }
+            points.push(point);
+            distance += STEP;
+        }
+        if let (true, Some(strip)) = (points.is_empty(), &self.strips[strip]) {
+            // A lane on its own that is shorter than a step.
+            points.push(if way == Way::Back {
+                strip.centre.first()
+            } else {
+                strip.centre.last()
+            });
+        }
+        points
     }
 
-    /// How a strip ends that leads to nothing.
-    fn free_end(&self, number: usize, strip: &Strip) -> EndPose {
-        let (last, near, far) = (strip.centre.last(), self.behind(number, LOOK), self.behind(number, 2.0 * LOOK));
-        free_pose(last - near, near - far, 1.0)
-    }
-
-    /// The point `distance` beyond the start of a strip.
-    fn ahead(&self, mut number: usize, mut distance: f64) -> Vec2 {
-        let mut point = Vec2::zeros();
+    /// The point `distance` away from an end of a strip, and how far it is where the lanes end before.
+    fn point(&self, mut number: usize, way: Way, distance: f64) -> (Vec2, f64) {
+        let (mut point, mut walked) = (Vec2::zeros(), 0.0);
         for _ in 0..MOST_LANES {
-            let Some(strip) = &self.strips[number] else { break };
-            point = strip.centre.at(distance);
-            distance -= strip.centre.length();
-            match self.links.successors[number].first() {
-                Some(&next) if distance > 0.0 => number = next,
+            let Some(Strip { centre, .. }) = &self.strips[number] else {
+                break;
+            };
+            let rest = distance - walked;
+            let (at, next) = match way {
+                Way::Back => (centre.length() - rest, self.links.predecessors[number].first()),
+                Way::Ahead => (rest, self.links.successors[number].first()),
+            };
+            point = centre.at(at);
+            walked += centre.length().min(rest);
+            match next {
+                Some(&next) if rest > centre.length() => number = next,
                 _ => break,
             }
         }
-        point
-    }
-
-    /// The point `distance` before the end of a strip.
-    fn behind(&self, mut number: usize, mut distance: f64) -> Vec2 {
-        let mut point = Vec2::zeros();
-        for _ in 0..MOST_LANES {
-            let Some(strip) = &self.strips[number] else { break };
-            point = strip.centre.at(strip.centre.length() - distance);
-            distance -= strip.centre.length();
-            match self.links.predecessors[number].first() {
-                Some(&next) if distance > 0.0 => number = next,
-                _ => break,
-            }
-        }
-        point
+        (point, walked)
     }
 }
 
-/// The pose at the outer end of chord `outer`, beside which lies chord `inner`; `side` is 1 when the line runs from
-/// `inner` to `outer`.
-fn free_pose(outer: Vec2, inner: Vec2, side: f64) -> EndPose {
-    let heading = libm::atan2(outer.y, outer.x);
-    let both = if side > 0.0 { bend(inner, outer) } else { bend(outer, inner) };
-    let Some(Bend { pose, .. }) = both else {
-        return EndPose { theta: heading, kappa: 0.0 };
-    };
-    EndPose {
-        theta: angle::wrap(heading + side * pose.kappa * outer.norm() / 2.0),
+/// The smooth line near some points at point `k`.
+fn pose_at(points: &[Vec2], k: usize) -> CurvePoint {
+    let line = graduated(points);
+    let last = line.len() - 1;
+    if last < 2 {
+        let chord = line[last] - line[0];
+        return CurvePoint {
+            position: line[k],
+            theta: libm::atan2(chord.y, chord.x),
+            kappa: 0.0,
+        };
+    }
+    // At an end the circle through the three outermost points goes on.
+    let inner = k.clamp(1, last - 1);
+    let mut pose = curve_point(&line[inner - 1..=inner + 1], Vec2::zeros());
+    pose.kappa = pose.kappa.clamp(-MAX_CURVATURE, MAX_CURVATURE);
+    let step = (line[k] - pose.position).norm();
+    let towards = if k < inner { -step } else { step };
+    CurvePoint {
+        position: line[k],
+        theta: angle::wrap(pose.theta + pose.kappa * towards),
         kappa: pose.kappa,
     }
 }

@@ -2,16 +2,12 @@
 
 use super::Source;
 use super::centre::Strip;
-use super::joints::Links;
-use corridor_decider::geometry::cross;
+use super::joints::{Links, bend};
 use corridor_decider::road::Neighbour;
 use std::collections::BTreeSet;
 
 /// Centre lines that are linked meet within this, m.
 const JOIN_DISTANCE: f64 = 0.5;
-
-/// How far into both lanes the turn between them is measured, m.
-const LOOK: f64 = 2.0;
 
 /// Lanes that turn by more into each other are no way on, rad: a taper may start at an angle, and coarse
 /// lanes of a junction turn at once.
@@ -32,25 +28,15 @@ pub(super) fn links(strips: &[Option<Strip>], source: &mut Source<'_, '_>) -> Li
         let (Some(Some(a)), Some(Some(b))) = (strips.get(from), strips.get(to)) else {
             continue;
         };
-        if meet(a, b) {
+        let gap = (b.centre.first() - a.centre.last()).norm();
+        if gap <= JOIN_DISTANCE && bend(strips, from, to) <= JOIN_TURN {
             links.successors[from].push(to);
             links.predecessors[to].push(from);
         } else {
             source.note("linked lanelets that do not meet are not joined", from);
         }
     }
-    links
-}
-
-/// Whether one strip goes on where the other ends.
-fn meet(from: &Strip, to: &Strip) -> bool {
-    let (from, to) = (&from.centre, &to.centre);
-    let (before, after) = (
-        from.last() - from.at(from.length() - LOOK),
-        to.at(LOOK) - to.first(),
-    );
-    let turn = libm::atan2(cross(before, after), before.dot(&after));
-    (to.first() - from.last()).norm() <= JOIN_DISTANCE && turn.abs() <= JOIN_TURN
+    links.straightest_first(strips)
 }
 
 /// The neighbours of all strips such that each knows the other; where the file contradicts itself, who was named first.
@@ -71,7 +57,10 @@ pub(super) fn neighbours(strips: &[Option<Strip>], source: &mut Source<'_, '_>) 
                 known[number][here] = Some(other);
                 known[other][back] = Some(number);
             } else {
-                source.note("a lanelet that is beside another one which names a third is not its neighbour", number);
+                source.note(
+                    "a lanelet that is beside another one which names a third is not its neighbour",
+                    number,
+                );
             }
         }
     }
@@ -80,6 +69,10 @@ pub(super) fn neighbours(strips: &[Option<Strip>], source: &mut Source<'_, '_>) 
 
 /// What a lane is to its neighbour: traffic that comes towards us sees us on the same side.
 fn seen_back(neighbour: Neighbour) -> Neighbour {
-    let side = if neighbour.reverse { neighbour.side } else { neighbour.side.opposite() };
+    let side = if neighbour.reverse {
+        neighbour.side
+    } else {
+        neighbour.side.opposite()
+    };
     Neighbour { side, ..neighbour }
 }

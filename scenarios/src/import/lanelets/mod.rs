@@ -5,8 +5,11 @@
 //! lanes meet (`joints`), the smooth line near the middle (`smooth`). Widths are measured from that line along its
 //! normal to the bounds as they were drawn, so the edges are the file's own (`section`).
 //!
-//! Deviation of the line from the true middle: nothing on straights and circles; at a kink of `a` rad about `0.8 a`
-//! metres, at most a quarter of a metre more where bounds bend between far points.
+//! Deviation of the line from the middle between the bounds as drawn: nothing on straights; millimetres on circles drawn
+//! finely; at a kink of `a` rad about `0.6 a` metres from smoothing, and at most a quarter of a metre between far
+//! points, where the bound is taken for a bend. Measured on the driving lanes of the Lanelet2 example map: half of the
+//! cross-sections within 2 cm, nine tenths within 19 cm; a metre and more only where one bound goes round a corner or
+//! is much longer than the other.
 
 mod bound_curve;
 mod budget;

@@ -94,8 +94,14 @@ impl Polyline {
     pub(super) fn crossing(&self, origin: Vec2, normal: Vec2, share: f64, least: f64) -> Crossing {
         let tangent = Vec2::new(normal.y, -normal.x);
         let near = share * self.length();
-        let from = self.stations.partition_point(|s| *s < near - WINDOW).saturating_sub(1);
-        let to = self.stations.partition_point(|s| *s <= near + WINDOW).max(from + 1);
+        let from = self
+            .stations
+            .partition_point(|s| *s < near - WINDOW)
+            .saturating_sub(1);
+        let to = self
+            .stations
+            .partition_point(|s| *s <= near + WINDOW)
+            .max(from + 1);
         let window = &self.points[from..(to + 1).min(self.points.len())];
         // (beyond `least` or not, how far) of crossings, and (how far along the lane, how far off) of points.
         let (mut best, mut beside) = ((true, f64::MAX), (f64::MAX, 0.0));

@@ -40,7 +40,11 @@ pub(super) fn lane_points(
         let (left, road_left) = rays.edges(number, Side::Left, &beside.left);
         let (right, road_right) = rays.edges(number, Side::Right, &beside.right);
         budget.stretch(left + right, rays.looked_at, number, source)?;
-        let CurvePoint { position, theta, kappa } = *at;
+        let CurvePoint {
+            position,
+            theta,
+            kappa,
+        } = *at;
         let s = points.last().map_or(0.0, |before| before.s + arc(before, at));
         if points.last().is_some_and(|before| s - before.s < LEAST_STEP) {
             continue;
@@ -85,7 +89,9 @@ impl Rays<'_> {
             reverse: false,
         };
         let edge = self.distance(own, side, 0.0);
-        let road = beyond.iter().fold(edge, |least, bound| self.distance(*bound, side, least));
+        let road = beyond
+            .iter()
+            .fold(edge, |least, bound| self.distance(*bound, side, least));
         (edge, road)
     }
 
@@ -100,7 +106,11 @@ impl Rays<'_> {
         };
         let (sin, cos) = angle::sin_cos(self.at.theta);
         let normal = Vec2::new(-sin, cos) * side.sign();
-        let share = if bound.reverse { 1.0 - self.share } else { self.share };
+        let share = if bound.reverse {
+            1.0 - self.share
+        } else {
+            self.share
+        };
         let found = line.crossing(self.at.position, normal, share, least);
         self.looked_at += found.looked_at;
         found.distance

@@ -87,11 +87,16 @@ fn coarse_chords_of_a_bend_give_its_heading_and_curvature() {
     let lane = &map.lanes()[0];
     assert!((lane.length() - 28.0 * PI).abs() < 0.2, "{}", lane.length());
     for p in &lane.points {
-        let (radius, turn) = (p.x.hypot(p.y), p.y.atan2(p.x));
+        let (radius, turn) = (libm::hypot(p.x, p.y), libm::atan2(p.y, p.x));
         assert!((radius - 28.0).abs() < 0.08, "{radius} at {}", p.s);
         let off = angle::difference(p.theta, turn + FRAC_PI_2);
         assert!(off.abs() < 0.02, "heading {off} off at {}", p.s);
-        assert!((p.kappa * 28.0 - 1.0).abs() < 0.25, "radius {} at {}", 1.0 / p.kappa, p.s);
+        assert!(
+            (p.kappa * 28.0 - 1.0).abs() < 0.25,
+            "radius {} at {}",
+            1.0 / p.kappa,
+            p.s
+        );
         // Chords lie within the outer circle by up to 26 cm.
         assert!((1.8..2.3).contains(&p.left) && (1.6..2.2).contains(&p.right));
     }
@@ -105,8 +110,19 @@ fn a_wedge_opens_from_nothing() {
     assert!(lane.points[0].left + lane.points[0].right < 1e-6);
     for p in &lane.points {
         let expected = (p.x / 10.0).min(3.0);
-        assert!((p.left + p.right - expected).abs() < 0.08, "{} at {}", p.left + p.right, p.x);
-        assert!((p.left - p.right).abs() < 0.25, "off the middle by {} at {}", p.left - p.right, p.x);
+        assert!(
+            (p.left + p.right - expected).abs() < 0.08,
+            "{} at {}",
+            p.left + p.right,
+            p.x
+        );
+        // Around the kink the left bound is taken for a bend of 150 m.
+        assert!(
+            (p.left - p.right).abs() < 0.3,
+            "off the middle by {} at {}",
+            p.left - p.right,
+            p.x
+        );
     }
 }
 
@@ -115,7 +131,13 @@ fn lanes_go_on_smoothly_through_a_polyline_cut_at_its_kinks() {
     // A bend of radius 50 in chords of 5 m, cut after every second chord.
     let (left, right) = (arc(48.0, 1.0, 11), arc(52.0, 1.0, 11));
     let mut lanelets: Vec<Lanelet> = (0..5)
-        .map(|k| lanelet(&format!("{k}"), &left[2 * k..=2 * k + 2], &right[2 * k..=2 * k + 2]))
+        .map(|k| {
+            lanelet(
+                &format!("{k}"),
+                &left[2 * k..=2 * k + 2],
+                &right[2 * k..=2 * k + 2],
+            )
+        })
         .collect();
     for (k, lanelet) in lanelets.iter_mut().take(4).enumerate() {
         lanelet.successors = vec![k + 1];
@@ -124,12 +146,17 @@ fn lanes_go_on_smoothly_through_a_polyline_cut_at_its_kinks() {
     for pair in map.lanes().windows(2) {
         assert_eq!(pair[1].predecessors.len(), 1);
         let (end, start) = (pair[0].points.last().unwrap(), &pair[1].points[0]);
-        assert!((end.x - start.x).hypot(end.y - start.y) < 1e-9);
+        assert!(libm::hypot(end.x - start.x, end.y - start.y) < 1e-9);
         assert!(angle::difference(end.theta, start.theta).abs() < 1e-12);
         assert!((end.kappa - start.kappa).abs() < 1e-12);
     }
     for p in map.lanes().iter().flat_map(|lane| &lane.points) {
-        assert!((p.kappa * 50.0 - 1.0).abs() < 0.3, "radius {} at {}", 1.0 / p.kappa, p.s);
+        assert!(
+            (p.kappa * 50.0 - 1.0).abs() < 0.3,
+            "radius {} at {}",
+            1.0 / p.kappa,
+            p.s
+        );
     }
 }
 
@@ -138,11 +165,19 @@ fn through_traffic_is_straight_where_a_lane_forks() {
     let mut before = lanelet("before", &[(-20.0, 4.0), (0.0, 4.0)], &[(-20.0, 0.0), (0.0, 0.0)]);
     before.successors = vec![1, 2];
     let on = lanelet("on", &[(0.0, 4.0), (20.0, 4.0)], &[(0.0, 0.0), (20.0, 0.0)]);
-    let off = lanelet("off", &[(0.0, 4.0), (4.0, 2.0), (6.0, -6.0)], &[(0.0, 0.0), (2.0, -6.0)]);
+    let off = lanelet(
+        "off",
+        &[(0.0, 4.0), (4.0, 2.0), (6.0, -6.0)],
+        &[(0.0, 0.0), (2.0, -6.0)],
+    );
     let map = map(&[before, on, off]);
     assert_eq!(map.lanes()[0].successors.len(), 2);
     for lane in &map.lanes()[..2] {
-        assert!(worst(lane, |p| p.y - 2.0) < 0.02, "{}", worst(lane, |p| p.y - 2.0));
+        assert!(
+            worst(lane, |p| p.y - 2.0) < 0.02,
+            "{}",
+            worst(lane, |p| p.y - 2.0)
+        );
     }
     for next in [LaneId(1), LaneId(2)] {
         ReferenceLine::along(&map, &[LaneId(0), next]).unwrap();
@@ -171,7 +206,9 @@ fn the_road_is_what_lies_side_by_side() {
     assert_eq!(oncoming.neighbour(ONCOMING), Some(LaneId(0)));
     assert_eq!(own.neighbour(RIGHT), None, "no drivable lane");
     assert!(worst(own, |p| p.road_left - 5.0) < 1e-6 && worst(own, |p| p.road_right - 3.5) < 1e-6);
-    assert!(worst(oncoming, |p| p.road_left - 6.75) < 1e-6 && worst(oncoming, |p| p.road_right - 1.75) < 1e-6);
+    assert!(
+        worst(oncoming, |p| p.road_left - 6.75) < 1e-6 && worst(oncoming, |p| p.road_right - 1.75) < 1e-6
+    );
     assert!(worst(shoulder, |p| p.road_left - 7.5) < 1e-6);
     assert!(worst(path, |p| p.road_left - 1.0) < 1e-6);
     assert_eq!(own.road, shoulder.road);
@@ -194,6 +231,20 @@ fn neighbours_that_only_one_side_names_are_mutual() {
     assert_eq!(map.lanes()[0].neighbour(LEFT), Some(LaneId(1)));
     assert_eq!(map.lanes()[2].neighbours, [None; 4]);
     assert_eq!(warnings.len(), 1, "{warnings:?}");
+}
+
+#[test]
+fn the_far_edge_of_an_oncoming_lane_is_looked_up_from_its_end() {
+    let mut own = lanelet("own", &[(0.0, 3.0), (100.0, 3.0)], &[(0.0, 0.0), (100.0, 0.0)]);
+    own.neighbours[ONCOMING.index()] = Some(1);
+    // It is 3 m wide where it begins, at x = 100, and 8 m where it ends.
+    let oncoming = lanelet(
+        "oncoming",
+        &[(100.0, 3.0), (0.0, 3.0)],
+        &[(100.0, 6.0), (0.0, 11.0)],
+    );
+    let map = map(&[own, oncoming]);
+    assert!(worst(&map.lanes()[0], |p| p.road_left - (9.5 - 0.05 * p.x)) < 1e-6);
 }
 
 #[test]
@@ -245,7 +296,13 @@ fn a_map_that_would_never_end_is_refused() {
     let long = lanelet("a", &[(0.0, 4.0), (1e8, 4.0)], &[(0.0, 0.0), (1e8, 0.0)]);
     assert!(matches!(built(&[long]).0, Err(ImportError::TooLarge { .. })));
     let wide: Vec<Lanelet> = (0..200)
-        .map(|k| lanelet(&format!("{k}"), &[(0.0, 900.0), (90.0, 900.0)], &[(0.0, 0.0), (90.0, 0.0)]))
+        .map(|k| {
+            lanelet(
+                &format!("{k}"),
+                &[(0.0, 900.0), (90.0, 900.0)],
+                &[(0.0, 0.0), (90.0, 0.0)],
+            )
+        })
         .collect();
     assert!(matches!(built(&wide).0, Err(ImportError::TooLarge { .. })));
     let overflow = lanelet("a", &[(-1e300, 0.0), (1e300, 0.0)], &[(0.0, 0.0), (1.0, 0.0)]);
