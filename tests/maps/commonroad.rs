@@ -127,7 +127,10 @@ fn a_limit_may_hang_on_a_sign_and_a_parked_car_stand_askew() {
         return;
     };
     assert_near(named(&read.map, "3").at(10.0).speed_limit, 16.67, 0.01);
-    assert!(named(&read.map, "1").at(10.0).speed_limit.is_infinite(), "the sign stands before the next lanelet");
+    assert!(
+        named(&read.map, "1").at(10.0).speed_limit.is_infinite(),
+        "the sign stands before the next lanelet"
+    );
     let (scenario, _) = scene(&read);
     let parked = scenario.obstacles.iter().find_map(|o| match o.behaviour {
         Behaviour::Parked(pose) => Some((pose, o.kind)),

@@ -52,10 +52,23 @@ pub struct CommonRoad {
     pub warnings: Vec<String>,
 }
 
-/// Whether a text is meant to be a CommonRoad file.
+/// Whether a text is meant to be a CommonRoad file: its first element is the format's root.
 pub fn is_commonroad(text: &str) -> bool {
-    text.trim_start_matches('\u{feff}').trim_start().starts_with('<')
-        && text.contains(concat!("<", "commonRoad"))
+    let mut rest = text.trim_start_matches('\u{feff}').trim_start();
+    loop {
+        let end = match rest {
+            _ if rest.starts_with("<!--") => "-->",
+            _ if rest.starts_with("<?") => "?>",
+            _ if rest.starts_with("<!") => ">",
+            _ => break,
+        };
+        match rest.find(end) {
+            Some(at) => rest = rest[at + end.len()..].trim_start(),
+            None => return false,
+        }
+    }
+    let name = rest.strip_prefix('<').unwrap_or_default();
+    name.starts_with(read::ROOT)
 }
 
 /// Reads the text of a CommonRoad file.

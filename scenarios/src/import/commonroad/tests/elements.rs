@@ -126,3 +126,20 @@ fn lights_and_intersections_are_read_in_old_and_new_words() {
         );
     }
 }
+
+#[test]
+fn a_file_is_known_by_its_first_element() {
+    use crate::import::commonroad::is_commonroad;
+    assert!(is_commonroad(PLAIN));
+    assert!(is_commonroad("\u{feff}\n<!-- <osm> --><!DOCTYPE x><commonRoad/>"));
+    for other in [
+        "",
+        "<",
+        "<!--",
+        "<osm><commonRoad/></osm>",
+        "# <commonRoad",
+        "<!-- <commonRoad> --><osm/>",
+    ] {
+        assert!(!is_commonroad(other), "{other}");
+    }
+}
