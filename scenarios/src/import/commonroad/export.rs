@@ -20,6 +20,9 @@ const DECIMALS: usize = 5;
 /// The benchmark's cost function that the solution names: the one that counts time and comfort.
 const COST: &str = "SM1";
 
+/// How far beyond all known ids a new one is taken: ways into an intersection are numbered too, and not read.
+const BEYOND_PARTS: Id = 1000;
+
 /// The ego at a time, at its rear axle.
 #[derive(Clone, Copy, Debug)]
 pub struct DrivenState {
@@ -98,8 +101,6 @@ impl CommonRoad {
         let ids = ids
             .chain(file.obstacles.iter().map(|o| o.id))
             .chain(file.problems.iter().map(|p| p.id));
-        // Intersections number their ways in, which are not read; they follow the intersection's own id.
-        const BEYOND_PARTS: Id = 1000;
         ids.max().unwrap_or(0).saturating_add(BEYOND_PARTS)
     }
 
@@ -117,7 +118,7 @@ impl CommonRoad {
         if let Some((first, rest)) = rows.split_first() {
             text += &state("initialState", first);
             text += "    <trajectory>\n";
-            rest.iter().for_each(|row| text += &state("state", row));
+            text.extend(rest.iter().map(|row| state("state", row)));
             text += "    </trajectory>\n";
         }
         text + &format!("  </{tag_name}>")

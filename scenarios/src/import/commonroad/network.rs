@@ -8,6 +8,7 @@ use crate::import::notes::Notes;
 use crate::import::xml::{Lines, Place};
 use corridor_decider::road::{BoundaryType, LaneId, LaneKind, Neighbour, RoadMap, Side};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// Signs that name a top speed: the German and the American ones, which the format writes in m/s.
 const SPEED_SIGNS: [&str; 3] = ["274", "274.1", "R2-1"];
@@ -153,11 +154,11 @@ fn junctions(file: &File) -> (Vec<String>, BTreeMap<Id, usize>) {
     }
     let says_so = |lanelet: &&data::Lanelet| lanelet.types.iter().any(|word| word == "intersection");
     for lanelet in file.lanelets.iter().filter(says_so) {
-        if !members.contains_key(&lanelet.id) {
+        if let Entry::Vacant(vacant) = members.entry(lanelet.id) {
             if names.last().map(String::as_str) != Some(UNNAMED_JUNCTION) {
                 names.push(UNNAMED_JUNCTION.to_owned());
             }
-            members.insert(lanelet.id, names.len() - 1);
+            vacant.insert(names.len() - 1);
         }
     }
     (names, members)

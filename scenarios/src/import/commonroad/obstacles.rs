@@ -129,17 +129,14 @@ fn behaviour(obstacle: &Obstacle, first: f64, step: f64, remarks: &mut Remarks) 
     match &obstacle.prediction {
         _ if obstacle.role == Role::Static => {}
         Prediction::None => {}
-        Prediction::Trajectory(states) => draft.extend(states.iter().filter_map(|state| self::draft(state))),
+        Prediction::Trajectory(states) => draft.extend(states.iter().filter_map(self::draft)),
         Prediction::Occupancy(sets) => {
             remarks.add("has occupancy sets: it drives through their middles", id);
-            draft.extend(
-                sets.iter()
-                    .filter_map(|(time, shapes)| middle_of(time.middle(), shapes)),
-            );
+            draft.extend(sets.iter().map(|(time, shapes)| middle_of(time.middle(), shapes)));
         }
     }
     let states = record(draft, first, step, || {
-        remarks.add("has states out of order: put in order", id)
+        remarks.add("has states out of order: put in order", id);
     });
     match states[..] {
         [] => {
@@ -186,17 +183,17 @@ fn centroid(shapes: &[Shape]) -> Vec2 {
     corners.iter().sum::<Vec2>() / (corners.len().max(1) as f64)
 }
 
-fn middle_of(time: f64, shapes: &[Shape]) -> Option<Draft> {
+fn middle_of(time: f64, shapes: &[Shape]) -> Draft {
     let theta = match shapes {
         [Shape::Rectangle { orientation, .. }] => Some(angle::wrap(*orientation)),
         _ => None,
     };
-    Some(Draft {
+    Draft {
         time,
         place: centroid(shapes),
         theta,
         speed: None,
-    })
+    }
 }
 
 /// States in order, with what the file left out made up for: headings and speeds from the way.

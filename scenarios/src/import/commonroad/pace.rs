@@ -18,6 +18,9 @@ const INSIDE: (f64, f64) = (5.0, 0.25);
 /// Share of the time that is left for the way, the rest is for lags; and what getting off to a start takes, s.
 const IN_TIME: (f64, f64) = (0.9, 0.5);
 
+/// Shorter stretches are where a lane touches the goal's place, m; they count where there is no other.
+const TOUCHES: f64 = 2.0;
+
 /// How far below the goal's largest speed to drive, m/s.
 const BELOW: f64 = 0.3;
 
@@ -34,8 +37,11 @@ pub(super) fn stretches(map: &RoadMap, goal: &GoalRegion) -> BTreeMap<LaneId, (f
         let is_in = |point: Vec2| placed.iter().any(|goal| goal.is_in_place(point));
         let mut inside = lane.points.iter().filter(|p| is_in(p.offset(0.0))).map(|p| p.s);
         if let Some(first) = inside.next().filter(|_| lane.kind.is_drivable()) {
-            found.insert(id, (first, inside.last().unwrap_or(first)));
+            found.insert(id, (first, inside.next_back().unwrap_or(first)));
         }
+    }
+    if found.values().any(|(first, last)| last - first >= TOUCHES) {
+        found.retain(|_, (first, last)| *last - *first >= TOUCHES);
     }
     if !found.is_empty() {
         return found;
@@ -90,14 +96,12 @@ impl Pace<'_> {
         let mut before = -station(self.map, self.way.first()?.lane, self.start);
         for (from, to) in self.way.iter().zip(self.way.get(1..)?) {
             let lane = self.map.lane(from.lane);
-            before += match to.change {
-                None => lane.length(),
+            before += lane.length();
+            if to.change.is_some() {
                 // A change goes to the same place of the lane beside.
-                Some(_) => {
-                    let end = lane.at(lane.length()).offset(0.0);
-                    lane.length() - station(self.map, to.lane, end)
-                }
-            };
+                let end = lane.at(lane.length()).offset(0.0);
+                before -= station(self.map, to.lane, end);
+            }
         }
         let inside = INSIDE.0.min(INSIDE.1 * (last - first));
         Some((before + first + inside, before + last - inside))

@@ -55,12 +55,16 @@ pub(super) fn station(map: &RoadMap, lane: LaneId, point: corridor_decider::geom
     nearest.map_or(0.0, |p| p.s)
 }
 
+/// Changes of lane, millimetres, and how early a start is listed: whole numbers are ordered without question.
+type Cost = (u32, u64, usize);
+
+/// The lane before, and to which side one leaves it.
+type Before = Option<(LaneId, Option<Side>)>;
+
 /// The best way from the end of one of `starts` to a lane that `is_goal`; the first lane of the way is the start.
 pub(super) fn find(map: &RoadMap, starts: &[LaneId], is_goal: impl Fn(LaneId) -> bool) -> Option<Vec<Step>> {
-    // Changes, millimetres, and how early a start is listed: whole numbers are ordered without question.
-    type Cost = (u32, u64, usize);
     let mut open: BinaryHeap<Reverse<(Cost, LaneId)>> = BinaryHeap::new();
-    let mut best: BTreeMap<LaneId, (Cost, Option<(LaneId, Option<Side>)>)> = BTreeMap::new();
+    let mut best: BTreeMap<LaneId, (Cost, Before)> = BTreeMap::new();
     for (place, lane) in starts.iter().enumerate() {
         let cost = (0, 0, place);
         best.entry(*lane).or_insert((cost, None));
@@ -111,7 +115,7 @@ fn millimetres(length: f64) -> u64 {
     (length * 1000.0).round() as u64
 }
 
-fn trace_back(end: LaneId, before: impl Fn(LaneId) -> Option<(LaneId, Option<Side>)>) -> Vec<Step> {
+fn trace_back(end: LaneId, before: impl Fn(LaneId) -> Before) -> Vec<Step> {
     let mut way = Vec::new();
     let mut lane = end;
     while let Some((previous, change)) = before(lane) {

@@ -1,7 +1,7 @@
 //! A planning problem with its traffic as a scenario: where the ego starts, which way it goes, how fast, for how
 //! long and what for.
 
-use super::data::{Id, Problem, State};
+use super::data::{Id, Interval, Problem, State};
 use super::lengthen::{self, End};
 use super::remarks::Remarks;
 use super::route::{self, Step};
@@ -49,12 +49,11 @@ impl CommonRoad {
         };
         let mut remarks = Remarks::default();
         let mut warnings = Vec::new();
-        let scenario = match chosen {
-            Some(problem) => self.solve(problem, &mut remarks, &mut warnings)?,
-            None => {
-                warnings.push("no planning problem: cruises along the longest lane".to_owned());
-                self.cruise(&mut remarks, &mut warnings)?
-            }
+        let scenario = if let Some(problem) = chosen {
+            self.solve(problem, &mut remarks, &mut warnings)?
+        } else {
+            warnings.push("no planning problem: cruises along the longest lane".to_owned());
+            self.cruise(&mut remarks, &mut warnings)?
         };
         warnings.extend(remarks.into_warnings());
         Ok((scenario, warnings))
@@ -78,7 +77,7 @@ impl CommonRoad {
         let center = self.start(&problem.initial);
         let ego = EgoStart {
             pose: center.advanced(-to_middle(&vehicle)),
-            speed: problem.initial.velocity.map_or(0.0, |v| v.middle()).max(0.0),
+            speed: problem.initial.velocity.map_or(0.0, Interval::middle).max(0.0),
         };
         let no_way = |why: String| ImportError::Element {
             place: problem.place,
