@@ -136,7 +136,7 @@ fn broken_files_never_panic() {
         readable += u32::from(commonroad::scenario(&text, None).is_ok());
     }
     assert!(
-        readable > 20,
+        readable > 10,
         "only {readable} were readable: the damage is too great to test anything"
     );
     assert!(commonroad::scenario(PLAIN, None).is_ok());
