@@ -1,5 +1,6 @@
 //! What can be wrong with a scenario file, each with the place in it.
 
+use crate::import::ImportError;
 use crate::validity::Rejection;
 use std::fmt;
 use std::ops::Range;
@@ -74,6 +75,9 @@ pub enum ScenarioError {
         /// Why.
         source: std::io::Error,
     },
+    /// A recorded scene in another format that cannot be read.
+    #[error(transparent)]
+    Import(#[from] ImportError),
     /// The text is no scenario.
     #[error("{place}: {problem}{}", place.excerpt())]
     Schema {

@@ -1,7 +1,10 @@
 //! A scenario file on its road: `(family, seed)` is one scenario.
 
+mod recorded;
+
 use crate::error::{DrawError, Place, ScenarioError};
 use crate::expectation;
+use crate::import::commonroad;
 use crate::map_source::{LoadedMap, MapCache};
 use crate::resolve::Draft;
 use crate::resolve::sampler::Sampler;
@@ -31,12 +34,29 @@ const PLANNED_AHEAD: f64 = 150.0;
 #[derive(Debug)]
 pub struct Family {
     name: String,
-    file: ScenarioFile,
-    expect: Expect,
+    description: String,
     source: Arc<str>,
     map: LoadedMap,
-    road: Road,
     fixed: bool,
+    origin: Origin,
+}
+
+/// Where the scenarios of a family come from.
+#[derive(Debug)]
+enum Origin {
+    /// A file of this project: seeds draw its numbers.
+    Drawn(Box<Template>),
+    /// A recorded scene: one scenario for each task in it, by turns.
+    Recorded(Vec<Scenario>),
+}
+
+/// A scenario file on its road.
+#[derive(Debug)]
+struct Template {
+    name: String,
+    file: ScenarioFile,
+    expect: Expect,
+    road: Road,
 }
 
 /// A scenario with what was rejected before it.
@@ -83,30 +103,33 @@ impl Family {
     /// # Errors
     /// [`ScenarioError`] with the place of the first mistake.
     pub fn parse_with(text: &str, file: &str, base: &Path, maps: &MapCache) -> Result<Self, ScenarioError> {
+        let stem = Path::new(file).file_stem().unwrap_or_default().to_string_lossy();
+        if commonroad::is_commonroad(text) {
+            return recorded::family(text, file, &stem);
+        }
         let content = ScenarioFile::parse(text, file)?;
         let place = |of: &Spanned<String>| Place::of(text, file, of.span());
         let map = maps.get(content.map.get_ref(), base, &place(&content.map))?;
-        let road = road(&content, &map.map, &place)?;
-        let stem = Path::new(file)
-            .file_stem()
-            .map(|stem| stem.to_string_lossy().into_owned());
-        let mut family = Self {
-            name: content.name.clone().or(stem).unwrap_or_default(),
+        let template = Template {
+            name: content.name.clone().unwrap_or_else(|| stem.into_owned()),
             expect: content
                 .expect
                 .clone()
                 .unwrap_or_else(|| expectation::usual(&content.command.task)),
+            road: road(&content, &map.map, &place)?,
             file: content,
-            source: text.into(),
-            map,
-            road,
-            fixed: false,
         };
         let first = Sampler::new(0, 0);
         // What the first attempt comes to does not matter here, only whether it took a random number.
-        let _ = family.attempt(0, &first);
-        family.fixed = !first.was_random();
-        Ok(family)
+        let _ = template.attempt(0, &first);
+        Ok(Self {
+            name: template.name.clone(),
+            description: template.file.description.clone(),
+            source: text.into(),
+            map,
+            fixed: !first.was_random(),
+            origin: Origin::Drawn(Box::new(template)),
+        })
     }
 
     /// Its name.
@@ -116,7 +139,7 @@ impl Family {
 
     /// One sentence for people.
     pub fn description(&self) -> &str {
-        &self.file.description
+        &self.description
     }
 
     /// The text of its file.
@@ -139,6 +162,11 @@ impl Family {
         &self.map.warnings
     }
 
+    /// Whether it is a scene that others recorded.
+    pub fn is_recorded(&self) -> bool {
+        matches!(self.origin, Origin::Recorded(_))
+    }
+
     /// Whether every seed gives the same scenario.
     pub fn is_fixed(&self) -> bool {
         self.fixed
@@ -149,9 +177,13 @@ impl Family {
     /// # Errors
     /// [`DrawError`] when none is.
     pub fn draw(&self, seed: u64) -> Result<Drawn, DrawError> {
+        let template = match &self.origin {
+            Origin::Drawn(template) => template,
+            Origin::Recorded(scenarios) => return Ok(recorded::draw(scenarios, seed)),
+        };
         let mut rejected = Vec::new();
         for attempt in 0..ATTEMPTS {
-            match self.attempt(seed, &Sampler::new(seed, attempt)) {
+            match template.attempt(seed, &Sampler::new(seed, attempt)) {
                 Ok(scenario) => return Ok(Drawn { scenario, rejected }),
                 Err(reason) if self.fixed => {
                     return Err(DrawError::Impossible {
@@ -168,7 +200,9 @@ impl Family {
             rejected,
         })
     }
+}
 
+impl Template {
     fn attempt(&self, seed: u64, sampler: &Sampler) -> Result<Scenario, Rejection> {
         let distance = match &self.expect {
             Expect::Progress(distance) | Expect::ProgressByGap(distance) => distance.as_ref(),

@@ -14,6 +14,7 @@ pub mod catalog;
 pub mod error;
 mod expectation;
 mod family;
+pub mod goal;
 pub mod import;
 mod map_format;
 mod map_source;

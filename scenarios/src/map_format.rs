@@ -4,15 +4,16 @@
 //! content. Binary maps are kept in hexadecimal behind a first line that says so: twice the size, which compression
 //! takes back.
 
-use crate::import::{ImportError, apollo, lanelet2, opendrive};
+use crate::import::{ImportError, apollo, commonroad, lanelet2, opendrive};
 use corridor_decider::road::RoadMap;
 use std::fmt::Write as _;
+use std::sync::Arc;
 
 /// First line of a binary map kept as text.
 const BINARY: &str = "# a binary map in hexadecimal\n";
 
 /// Endings of the map files that can be read.
-pub(crate) const ENDINGS: [&str; 4] = ["xodr", "osm", "bin", "txt"];
+pub(crate) const ENDINGS: [&str; 5] = ["xodr", "xml", "osm", "bin", "txt"];
 
 /// The content of a map file as text. Bytes of a text that are not UTF-8 (names in older encodings) are replaced.
 pub(crate) fn as_text(bytes: &[u8]) -> String {
@@ -28,23 +29,27 @@ pub(crate) fn as_text(bytes: &[u8]) -> String {
 }
 
 /// Reads a map from the text that [`as_text`] gave.
-pub(crate) fn read(text: &str) -> Result<(RoadMap, Vec<String>), ImportError> {
+pub(crate) fn read(text: &str) -> Result<(Arc<RoadMap>, Vec<String>), ImportError> {
     if let Some(digits) = text.strip_prefix(BINARY) {
-        return apollo::to_road_map(&apollo::read_map(&from_hexadecimal(digits)?)?);
+        return read_apollo(&from_hexadecimal(digits)?);
     }
     if is_apollo_text(text) {
-        return apollo::to_road_map(&apollo::read_map(text.as_bytes())?);
+        return read_apollo(text.as_bytes());
     }
-    if root_element(text) == Some("osm") {
-        let import = lanelet2::read(text)?;
-        return Ok((import.map, import.warnings));
+    match root_element(text) {
+        Some("osm") => lanelet2::read(text).map(|read| (Arc::new(read.map), read.warnings)),
+        Some("commonRoad") => commonroad::read(text).map(|read| (read.map, read.warnings)),
+        _ => opendrive::read(text).map(|read| (Arc::new(read.map), read.warnings)),
     }
-    let import = opendrive::read(text)?;
-    Ok((import.map, import.warnings))
+}
+
+fn read_apollo(bytes: &[u8]) -> Result<(Arc<RoadMap>, Vec<String>), ImportError> {
+    let (map, warnings) = apollo::to_road_map(&apollo::read_map(bytes)?)?;
+    Ok((Arc::new(map), warnings))
 }
 
 /// Name of the first element behind declarations and comments.
-fn root_element(text: &str) -> Option<&str> {
+pub(crate) fn root_element(text: &str) -> Option<&str> {
     let mut rest = text;
     loop {
         rest = &rest[rest.find('<')?..];

@@ -114,7 +114,7 @@ impl MapCache {
 fn read(text: Arc<str>) -> Result<LoadedMap, String> {
     let (map, warnings) = map_format::read(&text).map_err(|e| e.to_string())?;
     Ok(LoadedMap {
-        map: Arc::new(map),
+        map,
         text,
         warnings: warnings.into(),
     })

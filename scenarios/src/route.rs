@@ -100,7 +100,8 @@ fn turn(map: &RoadMap, lane: LaneId, next: LaneId) -> f64 {
     }
 }
 
-fn joins(map: &RoadMap, lane: LaneId, next: LaneId) -> bool {
+/// Whether `next` starts where `lane` ends.
+pub(crate) fn joins(map: &RoadMap, lane: LaneId, next: LaneId) -> bool {
     match (map.lane(lane).points.last(), map.lane(next).points.first()) {
         (Some(end), Some(start)) => (start.offset(0.0) - end.offset(0.0)).norm() <= JOIN_TOLERANCE,
         _ => false,

@@ -1,5 +1,6 @@
 //! One concrete scenario: every number drawn, every name resolved, ready to run.
 
+use crate::goal::GoalRegion;
 use corridor_decider::frame::{Command, ObstacleId, ObstacleKind};
 use corridor_decider::geometry::{ConvexPolygon, Pose, Vec2};
 use corridor_decider::reference_line::ReferenceLine;
@@ -67,6 +68,20 @@ pub struct Obstacle {
     pub behaviour: Behaviour,
 }
 
+impl Obstacle {
+    /// Where it is at the start of the run, if it is somewhere then and a pose is named for it.
+    pub(crate) fn start(&self) -> Option<Pose> {
+        match &self.behaviour {
+            Behaviour::Parked(pose) => Some(*pose),
+            Behaviour::Recorded { states, .. } => {
+                let first = states.iter().take_while(|state| state.t <= 0.0).last();
+                first.map(|state| state.pose)
+            }
+            _ => None,
+        }
+    }
+}
+
 /// How an obstacle moves.
 #[derive(Clone, Debug)]
 pub enum Behaviour {
@@ -96,6 +111,33 @@ pub enum Behaviour {
         /// When it starts.
         trigger: Trigger,
     },
+    /// Moves as recorded, whatever happens around it. Before its first state it is not in the scene.
+    Recorded {
+        /// Its states by strictly ascending time; at least one.
+        states: Arc<[RecordedState]>,
+        /// What becomes of it after the last one.
+        after: AfterRecord,
+    },
+}
+
+/// A state of motion at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RecordedState {
+    /// Seconds from the start of the run; negative for what was before.
+    pub t: f64,
+    /// Place and heading.
+    pub pose: Pose,
+    /// Speed along the heading, m/s; negative when it backs up.
+    pub speed: f64,
+}
+
+/// What becomes of an obstacle when its record ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AfterRecord {
+    /// It is taken out of the scene: nothing is known of it any more. What CommonRoad's own tools do.
+    Leaves,
+    /// It stands at its last place.
+    Holds,
 }
 
 /// A place and a speed on a line.
@@ -169,7 +211,7 @@ impl Default for IdmParams {
 }
 
 /// How a run should end.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Expectation {
     /// Reach the goal: this far along the route from the start, m.
@@ -187,29 +229,39 @@ pub enum Expectation {
     ProgressOrStandstill(f64),
     /// Stand at the road's edge or refuse: the gap is long enough for the car, but not for all clearances.
     PulledOverOrRefusal,
+    /// Meet a goal given by place, time, heading and speed.
+    Goal(GoalRegion),
 }
 
 impl Expectation {
     /// How far to get, if getting there is a right end, m.
-    pub fn goal(self) -> Option<f64> {
+    pub fn goal(&self) -> Option<f64> {
         match self {
-            Self::Progress(distance) | Self::ProgressOrStandstill(distance) => Some(distance),
+            Self::Progress(distance) | Self::ProgressOrStandstill(distance) => Some(*distance),
+            _ => None,
+        }
+    }
+
+    /// The region to get to, if getting there is the right end.
+    pub fn goal_region(&self) -> Option<&GoalRegion> {
+        match self {
+            Self::Goal(region) => Some(region),
             _ => None,
         }
     }
 
     /// Whether standing behind a blocker is a right end.
-    pub fn allows_standstill(self) -> bool {
+    pub fn allows_standstill(&self) -> bool {
         matches!(self, Self::Standstill | Self::ProgressOrStandstill(_))
     }
 
     /// Whether standing at the road's edge is a right end.
-    pub fn allows_pull_over(self) -> bool {
+    pub fn allows_pull_over(&self) -> bool {
         matches!(self, Self::PulledOver | Self::PulledOverOrRefusal)
     }
 
     /// Whether refusing the command is a right end.
-    pub fn allows_refusal(self) -> bool {
+    pub fn allows_refusal(&self) -> bool {
         matches!(self, Self::Refusal | Self::PulledOverOrRefusal)
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Perception is ideal but for two things: numbers are rounded to [`RESOLUTION`], and nobody's intentions are
 //! seen. Who follows a line is expected to go on along it at the speed and offset of now; all others go straight
-//! on. A car that stands in traffic and a pedestrian who waits are not static: they are predicted to stay.
+//! on. Only recorded traffic is expected to do what it then does: a record is what such a scene gives for a
+//! prediction. A car that stands in traffic and a pedestrian who waits are not static: they are predicted to stay.
 
 use crate::agents::Agents;
 use crate::world::{ObstacleBody, World};

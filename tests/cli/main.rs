@@ -9,5 +9,6 @@ mod endings;
 mod inputs;
 mod outputs;
 mod program;
+mod recorded;
 mod settings;
 mod traces;

@@ -5,6 +5,7 @@
 //! `CORRIDOR_REQUIRE_MAPS` is set.
 
 mod apollo;
+mod commonroad;
 mod lanelet2;
 mod opendrive;
 mod support;

@@ -8,7 +8,9 @@ use super::line::LineError;
 use super::query::LineQuery;
 use super::stitch::StitchedLine;
 use crate::hd_map::{HdMap, HdMapError};
-use crate::lane_follow_map::{FollowError, LaneFollowConfig, LaneFollowMap, RouteError, RouteSegments, VehicleState};
+use crate::lane_follow_map::{
+    FollowError, LaneFollowConfig, LaneFollowMap, RouteError, RouteSegments, VehicleState,
+};
 use crate::reference_line::ReferenceLine;
 use crate::road::RoadMap;
 use crate::routing::RoutingResponse;
@@ -115,13 +117,19 @@ impl LineProvider {
     }
 
     /// A line that holds a window: one of the last tick's, grown if it has to be, else a new one.
-    fn line_for(&mut self, state: &VehicleState, window: &RouteSegments) -> Result<StitchedLine, ProviderError> {
+    fn line_for(
+        &mut self,
+        state: &VehicleState,
+        window: &RouteSegments,
+    ) -> Result<StitchedLine, ProviderError> {
         if let Some(line) = self.lines.iter().find(|line| line.covers(&window.segments)) {
             return Ok(line.clone());
         }
         let chain = self.follow.longer(window, EXTENSION).segments;
         for line in &self.lines {
-            let Some(longer) = line.led_on(&self.roads, &chain, &self.vehicle) else { continue };
+            let Some(longer) = line.led_on(&self.roads, &chain, &self.vehicle) else {
+                continue;
+            };
             let longer = longer?;
             let here = longer.line().to_frenet(state.position).s;
             return Ok(if here - longer.line().start() > LONGEST_BEHIND {

@@ -89,6 +89,17 @@ pub enum ImportError {
         /// The limit in words.
         limit: &'static str,
     },
+    /// A planning problem that the file does not have.
+    #[error("there is no planning problem `{id}`; expected {}", if .known.is_empty() { "none, the file has no problem" } else { .known.as_str() })]
+    NoProblem {
+        /// Its id.
+        id: i64,
+        /// Those that there are, for people.
+        known: String,
+    },
+    /// A road on which nothing can be driven along.
+    #[error("there is no way to drive: {0}")]
+    NoWay(String),
     /// Every element is readable but the whole is not a map.
     #[error("{0}")]
     Map(#[from] MapError),
@@ -113,7 +124,7 @@ impl ImportError {
             | Self::TooLarge { place, .. } => Some(*place),
             Self::Field { place, .. } => *place,
             Self::InFile { error, .. } => error.place(),
-            Self::Io(_) | Self::Map(_) | Self::Bytes { .. } => None,
+            Self::Io(_) | Self::Map(_) | Self::Bytes { .. } | Self::NoProblem { .. } | Self::NoWay(_) => None,
         }
     }
 

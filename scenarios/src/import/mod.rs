@@ -4,6 +4,7 @@
 //! line, the column and what would have been right. No input makes it panic or run without end.
 
 pub mod apollo;
+pub mod commonroad;
 mod error;
 pub mod lanelet2;
 mod lanelets;

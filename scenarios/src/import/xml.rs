@@ -121,6 +121,11 @@ impl<'a> Element<'a> {
         Place(self.node.range().start)
     }
 
+    /// Line and column of the element.
+    pub(crate) fn text_place(self) -> TextPlace {
+        self.lines.place(self.place())
+    }
+
     /// An error at this element.
     pub(crate) fn error(self, problem: impl Into<String>, expected: impl Into<String>) -> ImportError {
         ImportError::Element {
@@ -156,6 +161,11 @@ impl<'a> Element<'a> {
             .attribute(attribute)
             .map(str::trim)
             .filter(|text| !text.is_empty())
+    }
+
+    /// The trimmed text inside the element, `None` when empty.
+    pub(crate) fn content(self) -> Option<&'a str> {
+        self.node.text().map(str::trim).filter(|text| !text.is_empty())
     }
 
     pub(crate) fn required_text(self, attribute: &str) -> Result<&'a str, ImportError> {
@@ -218,7 +228,7 @@ impl<'a> Element<'a> {
 }
 
 /// Enough of a bad value to recognise it.
-fn shortened(text: &str) -> String {
+pub(crate) fn shortened(text: &str) -> String {
     const SHOWN: usize = 40;
     if text.chars().count() <= SHOWN {
         return text.to_owned();

@@ -212,6 +212,9 @@ impl<'a> Course<'a> {
             Behaviour::Waypoints(points) => {
                 Motion::Legs(points.iter().map(|p| (p.t, place(p.pose.position()))).collect())
             }
+            Behaviour::Recorded { states, .. } => {
+                Motion::Legs(states.iter().map(|p| (p.t, place(p.pose.position()))).collect())
+            }
             Behaviour::Pedestrian {
                 to, speed, trigger, ..
             } => Motion::Walks {

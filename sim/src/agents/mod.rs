@@ -8,6 +8,7 @@ mod idm;
 mod lateral_move;
 mod leader;
 mod pedestrian;
+mod recorded;
 mod waypoints;
 
 use crate::world::BodyPose;
@@ -20,6 +21,7 @@ use corridor_scenarios::scenario::{Behaviour, Obstacle, Trigger};
 use idm::IdmDriver;
 use leader::Body;
 use pedestrian::Walker;
+use recorded::Recording;
 use waypoints::Track;
 
 /// How far predictions reach, s.
@@ -46,6 +48,7 @@ enum Actor {
     Waypoints(Track),
     Idm(Box<IdmDriver>),
     Pedestrian(Walker),
+    Recorded(Recording),
 }
 
 /// What an actor may react to in one step.
@@ -81,7 +84,7 @@ pub fn can_move(obstacle: &Obstacle) -> bool {
         Behaviour::ConstantSpeed(along) => along.speed != 0.0,
         Behaviour::Waypoints(points) => points.windows(2).any(|pair| pair[0].pose != pair[1].pose),
         Behaviour::Pedestrian { from, to, speed, .. } => from != to && *speed > 0.0,
-        Behaviour::Idm { .. } => true,
+        Behaviour::Idm { .. } | Behaviour::Recorded { .. } => true,
     }
 }
 
@@ -102,6 +105,7 @@ impl Actor {
                 speed,
                 trigger,
             } => Self::Pedestrian(Walker::new(*from, *to, *speed, *trigger)),
+            Behaviour::Recorded { states, after } => Self::Recorded(Recording::new(states, *after)),
         }
     }
 
@@ -112,6 +116,7 @@ impl Actor {
             Self::Waypoints(track) => track.advance(moment.time),
             Self::Idm(driver) => driver.advance(moment, dt),
             Self::Pedestrian(walker) => walker.advance(moment, dt),
+            Self::Recorded(recording) => recording.advance(moment.time),
         }
     }
 
@@ -122,6 +127,7 @@ impl Actor {
             Self::Waypoints(track) => track.motion(),
             Self::Idm(driver) => driver.follower.motion(),
             Self::Pedestrian(walker) => walker.motion(),
+            Self::Recorded(recording) => recording.motion(),
         };
         BodyPose { id, pose, velocity }
     }
@@ -131,7 +137,7 @@ impl Actor {
         match self {
             Self::Along(follower) => Some(follower),
             Self::Idm(driver) => Some(&driver.follower),
-            Self::Parked(_) | Self::Waypoints(_) | Self::Pedestrian(_) => None,
+            Self::Parked(_) | Self::Waypoints(_) | Self::Pedestrian(_) | Self::Recorded(_) => None,
         }
     }
 }
@@ -185,7 +191,8 @@ impl Agents {
     }
 
     /// Poses from now on, [`PREDICTION_STEP`] apart, that an observer expects: on along the line for who
-    /// follows one, straight on for all others. Empty for who cannot move.
+    /// follows one, on along the record for who moves as recorded, straight on for all others. Empty for who
+    /// cannot move.
     pub fn predict(&self, id: ObstacleId) -> Vec<PredictedPose> {
         let place = id.0 as usize;
         let Some(body) = self.bodies[..self.actors.len()]
@@ -197,6 +204,9 @@ impl Agents {
         let times = (0_u32..)
             .map(|k| f64::from(k) * PREDICTION_STEP)
             .take_while(|t| *t <= PREDICTION_HORIZON);
+        if let Actor::Recorded(recording) = &self.actors[place] {
+            return recording.predict(times);
+        }
         if let Some(follower) = self.actors[place].line() {
             let mut ghost = follower.as_expected();
             return times

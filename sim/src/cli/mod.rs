@@ -4,6 +4,7 @@
 #![allow(clippy::print_stdout, reason = "a program that prints its results")]
 
 mod catalog;
+mod export;
 mod output;
 mod run;
 mod source;

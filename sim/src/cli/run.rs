@@ -1,5 +1,6 @@
 //! `corridor run`: one scenario, one verdict.
 
+use super::export::Export;
 use super::{Gate, output, source};
 use clap::Args;
 use corridor_scenarios::{Family, MapCache, Scenario};
@@ -29,12 +30,22 @@ pub(crate) struct Run {
     /// Change a setting, as in `decider.path_bounds.obstacle_lat_buffer=0.3` or `profile=apollo`.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<String>,
+    #[command(flatten)]
+    export: Export,
 }
 
 impl Run {
     pub(crate) fn execute(&self) -> anyhow::Result<Gate> {
         let settings = Settings::with(&self.settings)?;
         let family = source::family(&self.scenario, &MapCache::new())?;
+        self.export.check(&family)?;
+        if family.is_recorded() {
+            // What a scene of other people holds is not always what one expects.
+            family
+                .map_warnings()
+                .iter()
+                .for_each(|warning| output::note(&format!("note: {warning}")));
+        }
         let drawn = family.draw(self.seed)?;
         let verdict = self.run(&family, &drawn.scenario, &settings)?;
         output::print(&text(&verdict));
@@ -45,18 +56,20 @@ impl Run {
     }
 
     fn run(&self, family: &Family, scenario: &Scenario, settings: &Settings) -> anyhow::Result<Verdict> {
-        let Some(page) = &self.view else {
+        if self.view.is_none() && !self.export.is_wanted() {
             return Ok(match &self.trace {
                 Some(path) => run::run_traced(family, scenario, &self.settings, settings, path)?,
                 None => run::run(scenario, settings),
             });
-        };
-        anyhow::ensure!(
-            self.trace.as_ref() != Some(page),
-            "`--trace` and `--view` both name `{}`: give each its own file",
-            page.display()
-        );
-        output::check(page)?;
+        }
+        if let Some(page) = &self.view {
+            anyhow::ensure!(
+                self.trace.as_ref() != Some(page),
+                "`--trace` and `--view` both name `{}`: give each its own file",
+                page.display()
+            );
+            output::check(page)?;
+        }
         let trace = match &self.trace {
             Some(path) => {
                 run::run_traced(family, scenario, &self.settings, settings, path)?;
@@ -64,7 +77,12 @@ impl Run {
             }
             None => run::run_recorded(family, scenario, &self.settings, settings),
         };
-        output::write(page, &view::page(&trace))?;
+        if let Some(page) = &self.view {
+            output::write(page, &view::page(&trace))?;
+        }
+        if self.export.is_wanted() {
+            self.export.write(family, scenario, &trace)?;
+        }
         Ok(trace.verdict.expect("a trace that was finished has a verdict"))
     }
 }

@@ -5,7 +5,7 @@ use super::measure::LongestSpan;
 use super::plan::Plan;
 use super::progress::ProgressWatch;
 use super::pull_over::{PullOverWatch, is_pull_over};
-use super::view::Sample;
+use super::view::{Sample, StepView};
 use crate::verdict::Ending;
 use corridor_decider::frame::Command;
 use corridor_decider::geometry::{ConvexPolygon, Vec2, angle};
@@ -63,10 +63,17 @@ impl EndingWatch {
             .in_target_lane
             .sample(is_in_target_lane(sample), sample.time());
         let standing = self.standing.sample(sample.ego().v.abs() < STANDS, sample.time());
-        let expect = sample.scenario.expect;
+        let expect = &sample.scenario.expect;
         let is_blocked =
             || progress.made() >= APPROACHED && gaps_ahead(sample).any(|gap| is_within(gap, BLOCKER_GAP));
-        let ending = if progress.is_at_goal() {
+        let ending = if expect.goal_region().is_some() {
+            // Only time ends this search for a goal: who stands may go on.
+            match (is_out_of_time(sample), standing > 0.0) {
+                (false, _) => return,
+                (true, true) => Ending::StoodStill,
+                (true, false) => Ending::Timeout,
+            }
+        } else if progress.is_at_goal() {
             Ending::GoalReached
         } else if pull_over.is_done() {
             Ending::PulledOver
@@ -84,6 +91,17 @@ impl EndingWatch {
             return;
         };
         self.end(ending);
+    }
+
+    /// Looks for a goal that is given as a region; such a one may be there for a single step.
+    pub(super) fn step(&mut self, scenario: &Scenario, view: &StepView) {
+        let Some(region) = scenario.expect.goal_region() else {
+            return;
+        };
+        let center = scenario.vehicle.center(view.ego.pose);
+        if region.is_met(view.time, center, view.ego.v) {
+            self.end(Ending::GoalReached);
+        }
     }
 
     /// Remembers whether the command was ever taken up.
@@ -117,11 +135,11 @@ fn is_out_of_time(sample: &Sample) -> bool {
 
 /// Whether `ending` is what the scenario expects.
 pub(super) fn is_expected(scenario: &Scenario, ending: Ending) -> bool {
-    let expect = scenario.expect;
+    let expect = &scenario.expect;
     match ending {
-        Ending::GoalReached => expect.goal().is_some(),
+        Ending::GoalReached => expect.goal().is_some() || expect.goal_region().is_some(),
         Ending::PulledOver => expect.allows_pull_over(),
-        Ending::LaneChanged => expect == Expectation::LaneChanged,
+        Ending::LaneChanged => *expect == Expectation::LaneChanged,
         Ending::Refused => expect.allows_refusal(),
         Ending::StoodStill => expect.allows_standstill(),
         Ending::PulledOverBadly | Ending::Collision | Ending::Timeout | Ending::DeciderFailed => false,

@@ -115,6 +115,7 @@ impl Monitor {
         if !self.collision.collisions().is_empty() {
             self.ending.end(Ending::Collision);
         }
+        self.ending.step(&self.scenario, view);
         let next_sample = f64::from(self.samples + 1) * SAMPLE_PERIOD;
         if view.time >= next_sample - TIME_TOLERANCE {
             self.samples += 1;

@@ -7,6 +7,7 @@ use corridor_decider::frame::{Command, ObstacleId};
 use corridor_decider::geometry::{Pose, Vec2};
 use corridor_decider::road::Side;
 use corridor_decider::tasks::path_bounds::Label;
+use corridor_scenarios::goal::{GoalArea, GoalRegion, GoalState};
 use corridor_scenarios::scenario::Expectation;
 
 fn pull_over_run(expect: Expectation) -> Run {
@@ -37,6 +38,56 @@ fn stand_at(x: f64, y: f64, theta: f64, v: f64) -> Option<Ending> {
     run.drive(2.0, |_| ego(x, y, theta, v), |_| Vec::new());
     assert_eq!(run.verdict().pass, run.ending() == Some(Ending::PulledOver));
     run.ending()
+}
+
+/// How a run towards a place that counts from 1.0 to 1.2 s ends for an ego that drives there at `v` m/s and then stands.
+fn drive_to_region(v: f64) -> Run {
+    let goal = GoalState {
+        time: (1.0, 1.2),
+        areas: vec![GoalArea::Circle {
+            center: Vec2::new(10.0, 0.0),
+            radius: 1.0,
+        }],
+        heading: None,
+        speed: None,
+    };
+    let mut scenario = scenario(
+        &[],
+        Expectation::Goal(GoalRegion {
+            time_step: 0.1,
+            alternatives: vec![goal],
+        }),
+    );
+    scenario.timeout = 3.0;
+    let to_middle = scenario.vehicle.center(Pose::new(0.0, 0.0, 0.0)).x;
+    let mut run = Run::new(scenario);
+    run.drive(
+        3.5,
+        |t| {
+            ego(
+                (v * t).min(v) - to_middle,
+                0.0,
+                0.0,
+                if t < 1.0 { v } else { 0.0 },
+            )
+        },
+        |_| Vec::new(),
+    );
+    run
+}
+
+#[test]
+fn a_region_is_reached_in_its_time_or_stood_before() {
+    let reached = drive_to_region(9.5);
+    assert_eq!(reached.ending(), Some(Ending::GoalReached));
+    assert!(reached.verdict().pass && (reached.verdict().duration - 1.0).abs() < 0.011);
+    let short = drive_to_region(8.0);
+    assert_eq!(
+        short.ending(),
+        Some(Ending::StoodStill),
+        "only when the time is out"
+    );
+    assert!(!short.verdict().pass && short.verdict().duration > 2.9);
 }
 
 #[test]
