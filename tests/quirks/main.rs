@@ -110,10 +110,13 @@ fn a_bound_padded_through_its_blocker_is_wrong_by_itself() {
     }
 }
 
-/// Rare, because a bound that knows the obstacles leaves little to check: one gate of a thousand runs of the catalog.
+/// Rare, because a bound that knows the obstacles leaves little to check: three of two thousand runs of the catalog, in
+/// which the car follows a path that no corner objects to until there is none.
 #[test]
-fn a_path_checked_at_its_corners_gets_stuck_between_cones() {
-    caught("cone_gate", 15..=15, &[CORNERS], 1);
+fn a_path_checked_at_its_corners_gets_stuck_between_bollards() {
+    for seed in [17, 35, 44] {
+        caught("bollards_askew", seed..=seed, &[CORNERS], 1);
+    }
 }
 
 /// Too near to the bollard for any bound that knows it, the fallback leads on.

@@ -78,5 +78,5 @@ fn densified(path: &[PathPoint]) -> impl Iterator<Item = Pose> + '_ {
 /// Radius of the circle around an obstacle's centre that holds it.
 fn extent(obstacle: &Obstacle) -> f64 {
     let corners = obstacle.shape.vertices().iter();
-    corners.map(|v| v.norm()).fold(0.0, f64::max)
+    corners.map(nalgebra::Matrix::norm).fold(0.0, f64::max)
 }

@@ -99,7 +99,9 @@ impl Silhouette {
             } else {
                 [near.l, far.l]
             };
-            ends.into_iter().for_each(|l| self.cells[k].add(l));
+            for l in ends {
+                self.cells[k].add(l);
+            }
         }
     }
 

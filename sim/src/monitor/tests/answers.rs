@@ -40,7 +40,7 @@ fn a_bound_swept_by_the_car_may_not_cover_what_stands() {
     };
     // The car's right side is at 2.1, the ego's left one at 1.055 beside its axle.
     assert!((gap(0.645).value.unwrap() - 0.4).abs() < 1e-9);
-    assert!(gap(1.044).pass && !gap(1.046).pass);
+    assert!(gap(0.944).pass && !gap(0.946).pass);
     assert_eq!(gap(1.046).worst_obstacle.as_deref(), Some("car_0"));
 }
 
