@@ -125,7 +125,8 @@ impl LineProvider {
         if let Some(line) = self.lines.iter().find(|line| line.covers(&window.segments)) {
             return Ok(line.clone());
         }
-        let chain = self.follow.longer(window, EXTENSION).segments;
+        let longer = self.follow.extend(window, 0.0, window.length() + EXTENSION);
+        let chain = longer.as_ref().unwrap_or(window).segments.clone();
         for line in &self.lines {
             let Some(longer) = line.led_on(&self.roads, &chain, &self.vehicle) else {
                 continue;
