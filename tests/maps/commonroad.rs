@@ -1,9 +1,9 @@
-//! The CommonRoad reader on files of the collection: what is in them, and every oddity they are known for.
+//! The reader of `CommonRoad` on files of the collection: what is in them, and every oddity they are known for.
 
 use crate::support::{assert_sound, map_file, named};
 use corridor_decider::frame::{Command, ObstacleKind};
 use corridor_decider::geometry::{Vec2, angle};
-use corridor_decider::road::{BoundaryType, LaneKind, Neighbour, Side};
+use corridor_decider::road::{BoundaryType, Lane, LaneKind, Neighbour, Side};
 use corridor_scenarios::Scenario;
 use corridor_scenarios::import::commonroad::data::{Prediction, Role};
 use corridor_scenarios::import::commonroad::{CommonRoad, read_file};
@@ -44,7 +44,9 @@ fn states<'a>(scenario: &'a Scenario, name: &str) -> &'a [RecordedState] {
 }
 
 /// Name, version, lanelets and their length in m, obstacles (static, dynamic), problems.
-const FILES: [(&str, &str, usize, f64, [usize; 2], usize); 10] = [
+type Known = (&'static str, &'static str, usize, f64, [usize; 2], usize);
+
+const FILES: [Known; 10] = [
     ("ZAM_Tutorial-1_2_T-1", "2020a", 3, 597.0, [1, 2], 1),
     ("DEU_Test-1_1_T-1", "2020a", 4, 300.0, [1, 1], 1),
     ("Tut_compliance", "2018b", 2, 400.0, [1, 1], 0),
@@ -72,7 +74,7 @@ fn every_file_holds_what_is_known_of_it() {
         );
         assert_eq!(file.problems.len(), problems, "{name}");
         assert_eq!(read.map.lanes().len(), lanelets, "{name}: {:?}", read.warnings);
-        let all: f64 = read.map.lanes().iter().map(|lane| lane.length()).sum();
+        let all: f64 = read.map.lanes().iter().map(Lane::length).sum();
         assert!((all - length).abs() < 0.01 * length, "{name}: {all} m of lanes");
         assert_near(file.time_step, 0.1, 1e-12);
     }

@@ -228,9 +228,9 @@ fn autoware_in_degrees_is_as_long_as_in_metres() {
     let Some(file) = map_file("lanelet2/autoware_vm_03_right_hand.osm") else {
         return;
     };
-    let text = std::fs::read_to_string(file).unwrap();
-    let metres = lanelet2::read(&text).unwrap().map;
-    let degrees = lanelet2::read(&text.replace("\"local_", "\"other_")).unwrap().map;
+    let text = std::fs::read_to_string(file).expect("the file is text");
+    let read = |text: &str| lanelet2::read(text).expect("the file is a map").map;
+    let (metres, degrees) = (read(&text), read(&text.replace("\"local_", "\"other_")));
     for (a, b) in metres.lanes().iter().zip(degrees.lanes()) {
         // The metres are those of a grid with a scale of its own.
         assert!((a.length() / b.length() - 1.0).abs() < 1e-3, "{}", a.name);
