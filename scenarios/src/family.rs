@@ -11,9 +11,10 @@ use crate::resolve::sampler::Sampler;
 use crate::route::{self, Road};
 use crate::scenario::Scenario;
 use crate::schema::ScenarioFile;
-use crate::schema::task::{Expect, Task};
+use crate::schema::task::{Expect, RoutePlace, Task};
 use crate::validity::{self, Rejection, Scene};
 use corridor_decider::road::{LaneId, RoadMap};
+use corridor_decider::routing::{BlackList, LaneGraph, Position, RoutingConfig, WayPoint};
 use std::path::Path;
 use std::sync::Arc;
 use toml::Spanned;
@@ -210,6 +211,8 @@ impl Template {
         };
         let distance = distance.map(|d| sampler.table(format_args!("expect.")).number("distance", d));
         let draft = Draft::new(&self.file, &self.road, sampler)?;
+        let to_destination = self.road.goal_s.map(|goal| goal - draft.ego_s);
+        let distance = distance.or(to_destination);
         let scene = Scene::new(&draft, &self.road);
         validity::check(&scene)?;
         let expect = expectation::expectation(&scene, &self.file.command.task, &self.expect, distance)?;
@@ -219,6 +222,7 @@ impl Template {
             seed,
             map: Arc::clone(&self.road.map),
             route: self.road.route.clone(),
+            routing: self.road.routing.clone(),
             line: Arc::clone(&self.road.line),
             target_line: self.road.target_line.clone(),
             ego: draft.ego,
@@ -241,6 +245,9 @@ fn road(
 ) -> Result<Road, ScenarioError> {
     let longest_run = file.cruise_speed.upper_end() * file.timeout.upper_end() + PLANNED_AHEAD;
     let length = longest_run.clamp(LEAST_ROUTE, LONGEST_ROUTE);
+    if let Some(destination) = &file.destination {
+        return routed(file, destination, map, place, length);
+    }
     let route = if file.route.is_empty() {
         let start = match &file.ego.lane {
             Some(name) => find(map, name, place)?,
@@ -264,6 +271,38 @@ fn road(
         )),
         problem: error.to_string(),
     })
+}
+
+/// The road that the router finds from the ego's lane to the destination.
+fn routed(
+    file: &ScenarioFile,
+    destination: &RoutePlace,
+    map: &Arc<RoadMap>,
+    place: &dyn Fn(&Spanned<String>) -> Place,
+    reach: f64,
+) -> Result<Road, ScenarioError> {
+    let error = |at: &Spanned<String>, problem: String| ScenarioError::Route {
+        place: Box::new(place(at)),
+        problem,
+    };
+    let Some(start) = &file.ego.lane else {
+        let problem = "a route needs to know where it begins: name the `lane` in `[ego]`";
+        return Err(error(&destination.lane, problem.to_owned()));
+    };
+    let mut way_points = vec![WayPoint::OnLane(Position {
+        lane: find(map, start, place)?,
+        s: 0.0,
+    })];
+    for at in file.via.iter().chain([destination]) {
+        let lane = find(map, &at.lane, place)?;
+        let s = at.s.unwrap_or(map.lane(lane).length());
+        way_points.push(WayPoint::OnLane(Position { lane, s }));
+    }
+    let graph = LaneGraph::new(map, RoutingConfig::default());
+    let response = graph
+        .route(map, &way_points, &BlackList::default())
+        .map_err(|problem| error(&destination.lane, problem.to_string()))?;
+    Road::routed(Arc::clone(map), response, reach).map_err(|problem| error(&destination.lane, problem))
 }
 
 /// The lanes that the file names, checked to follow each other.

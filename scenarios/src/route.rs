@@ -1,13 +1,19 @@
 //! The lanes to follow, and the lines along them and beside them.
 
+use crate::scenario::Routing;
 use corridor_decider::geometry::angle;
+use corridor_decider::hd_map::HdMap;
 use corridor_decider::reference_line::{LineError, ReferenceLine};
 use corridor_decider::road::{LaneId, Neighbour, RoadMap, Side};
+use corridor_decider::routing::RoutingResponse;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Largest gap between a lane and its successor that a line bridges, m; that of the reference line.
 const JOIN_TOLERANCE: f64 = 0.5;
+
+/// How far beyond its destination a route is known, m: what is planned ahead.
+const BEYOND_DESTINATION: f64 = 150.0;
 
 /// The road of a family: what all its seeds share.
 #[derive(Debug)]
@@ -16,6 +22,9 @@ pub(crate) struct Road {
     pub(crate) route: Vec<LaneId>,
     pub(crate) line: Arc<ReferenceLine>,
     pub(crate) target_line: Option<Arc<ReferenceLine>>,
+    pub(crate) routing: Option<Routing>,
+    /// Station of the destination on the line, m.
+    pub(crate) goal_s: Option<f64>,
     /// Length that other lines should have, m.
     reach: f64,
     /// Lines of oncoming traffic, by their first lane; made when first asked for.
@@ -43,6 +52,33 @@ impl Road {
             route,
             line,
             target_line,
+            routing: None,
+            goal_s: None,
+            reach,
+            others: Mutex::new(BTreeMap::new()),
+        })
+    }
+
+    /// The road along a router's answer.
+    ///
+    /// # Errors
+    /// What is wrong with the answer or the map.
+    pub(crate) fn routed(map: Arc<RoadMap>, response: RoutingResponse, reach: f64) -> Result<Self, String> {
+        let (line, goal_s) =
+            ReferenceLine::through(&map, &response, BEYOND_DESTINATION).map_err(|error| error.to_string())?;
+        let hd_map = HdMap::of_roads(&map).map_err(|error| error.to_string())?;
+        let lanes = response.roads.iter().flat_map(|road| road.passages.last());
+        let route = lanes.flat_map(|passage| &passage.segments);
+        Ok(Self {
+            route: route.filter_map(|segment| map.find(&segment.lane)).collect(),
+            map,
+            line: Arc::new(line),
+            target_line: None,
+            routing: Some(Routing {
+                response: Arc::new(response),
+                hd_map: Arc::new(hd_map),
+            }),
+            goal_s: Some(goal_s),
             reach,
             others: Mutex::new(BTreeMap::new()),
         })

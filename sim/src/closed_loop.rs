@@ -142,7 +142,7 @@ impl ClosedLoop {
     fn record(&mut self, frame: Frame, decision: Decision, controls: Controls) -> TickRecord {
         let hash = self.world.state_hash();
         self.digest.word(hash);
-        let lines = self.route.places(&frame.lines);
+        let (lines, new_lines) = self.route.places(&frame.lines);
         TickRecord {
             events: self
                 .story
@@ -152,6 +152,7 @@ impl ClosedLoop {
             hash: format!("{hash:016x}"),
             frame,
             lines,
+            new_lines,
             decision,
             controls,
         }

@@ -1,37 +1,79 @@
 //! What the router tells the decider: the command of the moment and the lines to plan along.
 
 use corridor_decider::frame::{Command, EgoState, FrameLine};
-use corridor_decider::reference_line::{LineQuery, ReferenceLine};
+use corridor_decider::lane_follow_map::VehicleState;
+use corridor_decider::reference_line::{LineProvider, LineQuery, ReferenceLine};
 use corridor_scenarios::Scenario;
 use std::sync::Arc;
 
 /// A scenario's route while it is driven.
 #[derive(Clone, Debug)]
 pub(crate) struct Route {
-    line: Arc<ReferenceLine>,
-    target: Option<Arc<ReferenceLine>>,
+    guide: Guide,
     command: Command,
     command_time: f64,
     cruise_speed: f64,
-    /// Whether the ego has reached the lane to change to; it is its own lane from then on.
-    changed: bool,
+    /// All lines that frames have held, in the order that [`Route::places`] refers to.
+    known: Vec<Arc<ReferenceLine>>,
+}
+
+/// Where the lines come from.
+#[derive(Clone, Debug)]
+enum Guide {
+    /// Lines along lanes that the scenario names, for the whole drive.
+    Fixed {
+        line: Arc<ReferenceLine>,
+        target: Option<Arc<ReferenceLine>>,
+        /// Whether the ego has reached the lane to change to; it is its own lane from then on.
+        changed: bool,
+    },
+    /// Lines of the passages of a route, which grow as it is driven.
+    Routed {
+        provider: Box<LineProvider>,
+        /// Those of the last tick: an ego that has strayed off its route finds back along them.
+        last: Vec<FrameLine>,
+    },
 }
 
 impl Route {
     pub(crate) fn new(scenario: &Scenario) -> Self {
+        let fixed: Vec<Arc<ReferenceLine>> = std::iter::once(&scenario.line)
+            .chain(&scenario.target_line)
+            .cloned()
+            .collect();
+        let provider = scenario.routing.as_ref().and_then(|routing| {
+            let (map, hd_map) = (Arc::clone(&scenario.map), Arc::clone(&routing.hd_map));
+            LineProvider::new(map, hd_map, (*routing.response).clone(), scenario.vehicle).ok()
+        });
+        let (guide, known) = match provider {
+            Some(provider) => (
+                Guide::Routed {
+                    provider: Box::new(provider),
+                    last: Vec::new(),
+                },
+                Vec::new(),
+            ),
+            None => (
+                Guide::Fixed {
+                    line: Arc::clone(&scenario.line),
+                    target: scenario.target_line.clone(),
+                    changed: false,
+                },
+                fixed,
+            ),
+        };
         Self {
-            line: Arc::clone(&scenario.line),
-            target: scenario.target_line.clone(),
+            guide,
             command: scenario.command,
             command_time: scenario.command_time,
             cruise_speed: scenario.cruise_speed,
-            changed: false,
+            known,
         }
     }
 
-    /// All lines that frames may hold, in the order that [`Route::places`] refers to.
-    pub(crate) fn all_lines(&self) -> Vec<Arc<ReferenceLine>> {
-        std::iter::once(&self.line).chain(&self.target).cloned().collect()
+    /// The lines that are known from the start; others come as the route is driven.
+    pub(crate) fn first_lines(&self) -> &[Arc<ReferenceLine>] {
+        &self.known
     }
 
     pub(crate) fn cruise_speed(&self) -> f64 {
@@ -40,7 +82,8 @@ impl Route {
 
     /// The command, once it has been given.
     pub(crate) fn command(&self, time: f64) -> Command {
-        if time >= self.command_time && !self.changed {
+        let is_done = matches!(self.guide, Guide::Fixed { changed: true, .. });
+        if time >= self.command_time && !is_done {
             self.command
         } else {
             Command::Cruise
@@ -49,36 +92,69 @@ impl Route {
 
     /// The ego's line and, while a change of lane is wanted and not done, the one to change to.
     pub(crate) fn lines(&mut self, ego: &EgoState, time: f64) -> Vec<FrameLine> {
-        let own = |line: &Arc<ReferenceLine>| FrameLine {
-            line: Arc::clone(line),
-            is_change_lane: false,
-        };
-        let Some(target) = &self.target else {
-            return vec![own(&self.line)];
-        };
-        self.changed |= is_in_lane(target, ego);
-        match self.command(time) {
-            _ if self.changed => vec![own(target)],
-            Command::ChangeLane(_) => {
-                vec![
-                    own(&self.line),
-                    FrameLine {
-                        line: Arc::clone(target),
-                        is_change_lane: true,
-                    },
-                ]
+        let is_asked = time >= self.command_time && matches!(self.command, Command::ChangeLane(_));
+        match &mut self.guide {
+            Guide::Fixed {
+                line,
+                target,
+                changed,
+            } => fixed(line, target.as_ref(), changed, ego, is_asked),
+            Guide::Routed { provider, last } => {
+                let state = VehicleState {
+                    position: ego.pose.position(),
+                    heading: ego.pose.theta,
+                    speed: ego.v,
+                };
+                if let Ok(lines) = provider.lines(&state) {
+                    let offered = lines.into_iter().map(|offered| FrameLine {
+                        is_change_lane: !offered.segments.is_on_segment,
+                        line: offered.line,
+                    });
+                    *last = offered.take(2).collect();
+                }
+                last.clone()
             }
-            _ => vec![own(&self.line)],
         }
     }
 
-    /// Places of a frame's lines among all lines, and whether each is a change of lane.
-    pub(crate) fn places(&self, lines: &[FrameLine]) -> Vec<(usize, bool)> {
-        let place = |line: &FrameLine| usize::from(!Arc::ptr_eq(&line.line, &self.line));
-        lines
-            .iter()
-            .map(|line| (place(line), line.is_change_lane))
-            .collect()
+    /// Places of a frame's lines among all lines, each with whether it is a change of lane, and the lines among them
+    /// that no frame before has held.
+    pub(crate) fn places(&mut self, lines: &[FrameLine]) -> (Vec<(usize, bool)>, Vec<Arc<ReferenceLine>>) {
+        let known_before = self.known.len();
+        let mut places = Vec::with_capacity(lines.len());
+        for FrameLine { line, is_change_lane } in lines {
+            let found = self.known.iter().position(|known| Arc::ptr_eq(known, line));
+            places.push((found.unwrap_or(self.known.len()), *is_change_lane));
+            if found.is_none() {
+                self.known.push(Arc::clone(line));
+            }
+        }
+        (places, self.known[known_before..].to_vec())
+    }
+}
+
+/// The lines of a drive along lanes that are named.
+fn fixed(
+    line: &Arc<ReferenceLine>,
+    target: Option<&Arc<ReferenceLine>>,
+    changed: &mut bool,
+    ego: &EgoState,
+    is_asked: bool,
+) -> Vec<FrameLine> {
+    let along = |line: &Arc<ReferenceLine>, is_change_lane| FrameLine {
+        line: Arc::clone(line),
+        is_change_lane,
+    };
+    let Some(target) = target else {
+        return vec![along(line, false)];
+    };
+    *changed |= is_in_lane(target, ego);
+    if *changed {
+        vec![along(target, false)]
+    } else if is_asked {
+        vec![along(line, false), along(target, true)]
+    } else {
+        vec![along(line, false)]
     }
 }
 

@@ -59,8 +59,12 @@ pub fn run_recorded(
     let Ok(verdict) = run_into(scenario, settings, &mut ticks) else {
         unreachable!("keeping in memory cannot fail");
     };
+    let mut header = header(family, scenario, overrides, settings);
+    for tick in &mut ticks.0 {
+        header.lines.append(&mut tick.new_lines);
+    }
     Trace {
-        header: header(family, scenario, overrides, settings),
+        header,
         ticks: ticks.0,
         verdict: Some(verdict),
         truncated: false,
@@ -86,7 +90,11 @@ impl Sink for TraceSink {
 
 /// What a trace says of the run before its first tick.
 pub fn header(family: &Family, scenario: &Scenario, overrides: &[String], settings: &Settings) -> Header {
-    let lines = Route::new(scenario).all_lines();
+    let driven: Vec<_> = [&scenario.line]
+        .into_iter()
+        .chain(&scenario.target_line)
+        .cloned()
+        .collect();
     Header {
         format: FORMAT,
         build: env!("CARGO_PKG_VERSION").to_owned(),
@@ -101,8 +109,8 @@ pub fn header(family: &Family, scenario: &Scenario, overrides: &[String], settin
             .iter()
             .map(|obstacle| obstacle.name.clone())
             .collect(),
-        lanes: outline::near(scenario.map.lanes(), &lines),
-        lines,
+        lanes: outline::near(scenario.map.lanes(), &driven),
+        lines: Route::new(scenario).first_lines().to_vec(),
         tick: settings.tick,
     }
 }

@@ -13,6 +13,7 @@ mod stitch;
 pub(crate) mod testing;
 #[cfg(test)]
 mod tests;
+mod through;
 
 pub use line::{LineError, LinePoint, LineSample, ReferenceLine};
 pub use provider::{LineProvider, ProviderError, RouteLine};

@@ -12,7 +12,7 @@ use crate::error::{Place, ScenarioError};
 use number::{Number, Seconds, Speed};
 use obstacle::{Idm, Moving, Parked, Pedestrian, Scripted};
 use serde::Deserialize;
-use task::{Command, Ego, Expect};
+use task::{Command, Ego, Expect, RoutePlace};
 use toml::Spanned;
 use vehicle::Vehicle;
 
@@ -35,6 +35,11 @@ pub struct ScenarioFile {
     /// Names of the lanes to follow; straight on from the ego's lane when absent.
     #[serde(default)]
     pub route: Vec<Spanned<String>>,
+    /// Where the drive leads: the router finds the way, lane changes included.
+    pub destination: Option<RoutePlace>,
+    /// Places to pass on the way there, in order.
+    #[serde(default)]
+    pub via: Vec<RoutePlace>,
     /// Speed to drive where nothing limits it, m/s.
     #[serde(default = "default_cruise_speed")]
     pub cruise_speed: Number<Speed>,

@@ -21,6 +21,16 @@ pub struct Ego {
     pub speed: Option<Number<Speed>>,
 }
 
+/// A place that a route leads to.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RoutePlace {
+    /// Name of its lane.
+    pub lane: Spanned<String>,
+    /// Station on that lane, m; its end when absent.
+    pub s: Option<f64>,
+}
+
 /// What the ego is asked to do, and when.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(try_from = "RawCommand")]

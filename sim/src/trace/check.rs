@@ -3,6 +3,8 @@
 //! Everyone downstream indexes with the places that a trace names; here they are checked once.
 
 use super::record::{Header, TickRecord};
+use corridor_decider::reference_line::ReferenceLine;
+use std::sync::Arc;
 
 /// Whether the header can be used: a period, and lines that are lines.
 pub(super) fn header(header: &Header) -> Result<(), String> {
@@ -12,7 +14,12 @@ pub(super) fn header(header: &Header) -> Result<(), String> {
             header.tick
         ));
     }
-    for (k, line) in header.lines.iter().enumerate() {
+    lines(&header.lines, 0)
+}
+
+/// Whether the lines from place `first` on are lines.
+pub(super) fn lines(lines: &[Arc<ReferenceLine>], first: usize) -> Result<(), String> {
+    for (k, line) in lines.iter().enumerate().skip(first) {
         let samples = line.samples();
         if samples.len() < 2 {
             return Err(format!("reference line {k} has fewer than two samples"));

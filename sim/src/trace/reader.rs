@@ -73,7 +73,10 @@ impl Trace {
         }
         match record {
             Record::Header(_) => return Err("a second header".to_owned()),
-            Record::Tick(tick) => {
+            Record::Tick(mut tick) => {
+                let known = self.header.lines.len();
+                self.header.lines.append(&mut tick.new_lines);
+                check::lines(&self.header.lines, known)?;
                 check::tick(&self.header, &tick)?;
                 self.ticks.push(*tick);
             }

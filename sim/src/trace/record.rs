@@ -43,7 +43,8 @@ pub struct Header {
     pub vehicle: VehicleParams,
     /// Names of the obstacles, by [`ObstacleId`].
     pub obstacle_names: Vec<String>,
-    /// Lines that the frames refer to by place.
+    /// Lines that the frames refer to by place. Those that come up on the way are in the tick that first needs them;
+    /// who reads a trace has them all here.
     pub lines: Vec<Arc<ReferenceLine>>,
     /// The road, to draw.
     pub lanes: Vec<LaneOutline>,
@@ -80,6 +81,9 @@ pub struct TickRecord {
     pub frame: Frame,
     /// Places of the frame's lines in the header, and whether each is a change of lane.
     pub lines: Vec<(usize, bool)>,
+    /// Lines that no tick before this one had.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub new_lines: Vec<Arc<ReferenceLine>>,
     /// What it decided.
     pub decision: Decision,
     /// What the tracker asked of the car in the last physics step of the tick.

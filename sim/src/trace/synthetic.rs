@@ -184,6 +184,7 @@ fn tick(line: &ReferenceLine, k: u32, obstacles: u32) -> TickRecord {
     TickRecord {
         decision: decision(line, s, v, time),
         lines: vec![(0, false)],
+        new_lines: Vec::new(),
         controls: Controls {
             steer: 0.01,
             acceleration: frame.ego.a,

@@ -130,6 +130,9 @@ impl TraceWriter {
         line.extend_from_slice(b"{\"tick\":");
         field(line, "{\"frame\":", &FrameWithoutLines::new(&record.frame), Exact)?;
         field(line, ",\"lines\":", &record.lines, Exact)?;
+        if !record.new_lines.is_empty() {
+            field(line, ",\"new_lines\":", &record.new_lines, Exact)?;
+        }
         field(line, ",\"decision\":", &record.decision, Rounded)?;
         field(line, ",\"controls\":", &record.controls, Exact)?;
         field(line, ",\"ego\":", &record.ego, Exact)?;

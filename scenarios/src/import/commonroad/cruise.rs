@@ -79,6 +79,7 @@ impl CommonRoad {
             map,
             route: road.route,
             line: road.line,
+            routing: None,
             target_line: None,
             ego: EgoStart { pose, speed },
             command: Command::Cruise,

@@ -140,6 +140,7 @@ impl CommonRoad {
             map,
             command: road.change.map_or(Command::Cruise, Command::ChangeLane),
             route: road.route,
+            routing: None,
             line: road.line,
             target_line: road.target,
             ego,
