@@ -17,7 +17,7 @@ use corridor_decider::reference_line::LineQuery;
 const PROGRESS_SHARE: f64 = 0.6;
 
 /// Length of route that must be left beyond a goal, m, so that the end of the road does not slow the ego down.
-const BEYOND_GOAL: f64 = 30.0;
+pub(crate) const BEYOND_GOAL: f64 = 30.0;
 
 /// Least distance from the front bumper to the place to pull over, m: the original's
 /// `pull_over_destination_to_adc_buffer`.

@@ -13,6 +13,7 @@ use crate::scenario::Scenario;
 use crate::schema::ScenarioFile;
 use crate::schema::task::{Expect, RoutePlace, Task};
 use crate::validity::{self, Rejection, Scene};
+use corridor_decider::reference_line::LineQuery;
 use corridor_decider::road::{LaneId, RoadMap};
 use corridor_decider::routing::{BlackList, LaneGraph, Position, RoutingConfig, WayPoint};
 use std::path::Path;
@@ -211,7 +212,9 @@ impl Template {
         };
         let distance = distance.map(|d| sampler.table(format_args!("expect.")).number("distance", d));
         let draft = Draft::new(&self.file, &self.road, sampler)?;
-        let to_destination = self.road.goal_s.map(|goal| goal - draft.ego_s);
+        // A destination at the end of the map is not driven up to: the end of the road slows the ego down.
+        let reachable = self.road.line.length() - expectation::BEYOND_GOAL;
+        let to_destination = self.road.goal_s.map(|goal| goal.min(reachable) - draft.ego_s);
         let distance = distance.or(to_destination);
         let scene = Scene::new(&draft, &self.road);
         validity::check(&scene)?;

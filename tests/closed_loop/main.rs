@@ -8,5 +8,6 @@ mod catalog;
 mod failing;
 mod order;
 mod repeat;
+mod routed;
 mod smoothness;
 mod support;

@@ -142,3 +142,54 @@ impl LineProvider {
         Ok(StitchedLine::new(&self.roads, chain, &self.vehicle)?)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vec2;
+    use crate::road::LaneId;
+    use crate::routing::tests::motorway;
+    use crate::routing::{BlackList, LaneGraph, Position, RoutingConfig, WayPoint};
+
+    /// From the left lane of a motorway of five times 100 m to the right one.
+    fn provider() -> LineProvider {
+        let roads = Arc::new(RoadMap::new(motorway(5), Vec::new()).unwrap());
+        let at = |lane, s| {
+            WayPoint::OnLane(Position {
+                lane: LaneId(lane),
+                s,
+            })
+        };
+        let graph = LaneGraph::new(&roads, RoutingConfig::default());
+        let route = graph
+            .route(&roads, &[at(0, 0.0), at(14, 90.0)], &BlackList::default())
+            .unwrap();
+        let hd_map = Arc::new(HdMap::of_roads(&roads).unwrap());
+        LineProvider::new(roads, hd_map, route, VehicleParams::default()).unwrap()
+    }
+
+    fn car(x: f64, y: f64) -> VehicleState {
+        VehicleState {
+            position: Vec2::new(x, y),
+            heading: 0.0,
+            speed: 10.0,
+        }
+    }
+
+    #[test]
+    fn each_lane_on_the_way_is_offered_in_its_turn() {
+        let mut provider = provider();
+        for (y, beside) in [(0.0, Some(-3.5)), (-3.5, Some(-7.0)), (-7.0, None)] {
+            for x in [20.0, 22.0, 24.0] {
+                let lines = provider.lines(&car(x, y + 0.2)).unwrap();
+                let offsets: Vec<f64> = lines.iter().map(|line| line.line.point(x).y).collect();
+                let wanted: Vec<f64> = [y].into_iter().chain(beside).collect();
+                assert_eq!(offsets.len(), wanted.len(), "{x} {y}: {offsets:?}");
+                for (have, want) in offsets.iter().zip(wanted) {
+                    assert!((have - want).abs() < 1e-9, "{x} {y}: {offsets:?}");
+                }
+                assert!(lines[0].segments.is_on_segment);
+            }
+        }
+    }
+}

@@ -11,7 +11,7 @@ mod request;
 mod response;
 mod search;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use config::RoutingConfig;
 pub use graph::LaneGraph;

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 /// Three lanes of a straight road side by side (0 the left one) in `rows` rows of 100 m, joined one after the other.
 /// Lane `row · 3 + column`.
-fn motorway(rows: u32) -> Vec<Lane> {
+pub(crate) fn motorway(rows: u32) -> Vec<Lane> {
     let mut lanes = Vec::new();
     for row in 0..rows {
         for column in 0_u32..3 {

@@ -17,6 +17,9 @@ const MINIMUM: f64 = 0.2;
 /// How near to the goal counts as there, m.
 const GOAL_TOLERANCE: f64 = 3.0;
 
+/// Half a lane, m: farther from the middle of the destination's lane the ego is in another one.
+const LANE_REACH: f64 = 1.75;
+
 /// Watches the way made.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ProgressWatch {
@@ -24,7 +27,10 @@ pub(super) struct ProgressWatch {
     wanted: f64,
     is_goal: bool,
     is_required: bool,
+    /// Farthest from the line at which a goal at its end counts, m: a route leads to a lane, not beside it.
+    reach: f64,
     made: f64,
+    off: f64,
 }
 
 impl ProgressWatch {
@@ -37,12 +43,19 @@ impl ProgressWatch {
             wanted,
             is_goal: goal.is_some(),
             is_required: goal.is_some() && !scenario.expect.allows_standstill(),
+            reach: if scenario.routing.is_some() {
+                LANE_REACH
+            } else {
+                f64::MAX
+            },
             made: 0.0,
+            off: 0.0,
         }
     }
 
     pub(super) fn sample(&mut self, sample: &Sample) {
         self.made = sample.at.s - self.start;
+        self.off = sample.at.l.abs();
     }
 
     /// Metres made since the start.
@@ -51,7 +64,7 @@ impl ProgressWatch {
     }
 
     pub(super) fn is_at_goal(&self) -> bool {
-        self.is_goal && self.made >= self.wanted - GOAL_TOLERANCE
+        self.is_goal && self.made >= self.wanted - GOAL_TOLERANCE && self.off <= self.reach
     }
 
     fn ratio(&self) -> f64 {

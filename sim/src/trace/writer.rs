@@ -131,7 +131,8 @@ impl TraceWriter {
         field(line, "{\"frame\":", &FrameWithoutLines::new(&record.frame), Exact)?;
         field(line, ",\"lines\":", &record.lines, Exact)?;
         if !record.new_lines.is_empty() {
-            field(line, ",\"new_lines\":", &record.new_lines, Exact)?;
+            line.extend_from_slice(b",\"new_lines\":");
+            serde_json::to_writer(&mut *line, &record.new_lines)?;
         }
         field(line, ",\"decision\":", &record.decision, Rounded)?;
         field(line, ",\"controls\":", &record.controls, Exact)?;
