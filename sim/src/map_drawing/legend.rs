@@ -5,9 +5,6 @@ use crate::map_report::kind_name;
 use corridor_decider::road::LaneKind;
 use std::fmt::Write as _;
 
-/// Least width of the sheet as a share of the map's size, so that the legend has room beside a narrow map.
-pub(super) const WIDTH: f64 = 0.9;
-
 /// Height of the letters as a share of the map's size.
 const LETTERS: f64 = 0.012;
 
@@ -38,12 +35,23 @@ pub(super) fn legend(kinds: &[(LaneKind, &str)], paper: &Paper) -> String {
             top = row - 0.85 * letter,
             text = x + 1.3 * letter,
         );
-        // Sans-serif letters are a little over half as wide as they are high.
-        #[expect(clippy::cast_precision_loss, reason = "a name of a few letters")]
-        let width = name.len() as f64 * 0.6;
-        x += (width + 2.5) * letter;
+        x += entry_width(name) * letter;
     }
     legend
+}
+
+/// Length of the legend, cm.
+pub(super) fn width(kinds: &[(LaneKind, &str)], size: f64) -> f64 {
+    let entries = kinds.iter().map(|(kind, _)| entry_width(kind_name(*kind)));
+    entries.sum::<f64>() * size * LETTERS
+}
+
+/// Room for a colour and its name, in heights of a letter.
+fn entry_width(name: &str) -> f64 {
+    // Sans-serif letters are a little over half as wide as they are high.
+    #[expect(clippy::cast_precision_loss, reason = "a name of a few letters")]
+    let letters = name.len() as f64 * 0.6;
+    letters + 2.5
 }
 
 /// The largest of 1, 2, 5, 10, … metres that is not longer than `longest`; both cm.

@@ -37,8 +37,8 @@ const MARK: f64 = 0.12;
 /// Widest that a line is drawn to be seen from afar, m: lanes stay apart.
 const WIDEST_MARK: f64 = 0.4;
 
-/// Part of the map's size that a line is wide at least: half a pixel of a screen.
-const VISIBLE: f64 = 1.0 / 4000.0;
+/// Part of the map's size that a line is wide at least: not much less than a pixel of a screen.
+const VISIBLE: f64 = 1.0 / 2000.0;
 
 /// Least size of a map that things are in proportion to, m.
 const SMALLEST: f64 = 20.0;
@@ -48,7 +48,11 @@ pub fn svg(name: &str, map: &RoadMap) -> String {
     let (low, high) = corners(map.lanes());
     let size = (high - low).norm().max(SMALLEST);
     let paper = Paper::new(low, high, size);
-    let mut svg = paper.opening(name);
+    let shown: Vec<(LaneKind, &str)> = COLOURS
+        .into_iter()
+        .filter(|(kind, _)| map.lanes().iter().any(|lane| lane.kind == *kind))
+        .collect();
+    let mut svg = paper.opening(name, legend::width(&shown, paper.size()));
     svg += &style((size * VISIBLE).clamp(MARK, WIDEST_MARK));
     let mut lanes: Vec<&Lane> = map.lanes().iter().collect();
     // Roads over pavements, junctions below the roads that lead to them.
@@ -69,10 +73,6 @@ pub fn svg(name: &str, map: &RoadMap) -> String {
         svg += &path::arrows(lane, &paper);
     }
     svg += "\"/>\n";
-    let shown: Vec<(LaneKind, &str)> = COLOURS
-        .into_iter()
-        .filter(|(kind, _)| map.lanes().iter().any(|lane| lane.kind == *kind))
-        .collect();
     svg + &legend::legend(&shown, &paper) + "</svg>\n"
 }
 
@@ -96,7 +96,7 @@ fn style(width: f64) -> String {
          .broken{{stroke-dasharray:300 300}}\n.double{{stroke:#e09c00;stroke-width:{double:.1}}}\n\
          .between{{stroke:#a3abb6;stroke-width:{mark:.1}}}\n.arrow{{fill:#39424e}}\n\
          text{{font-family:sans-serif;fill:#1b1f26}}\n</style>\n",
-        edge = mark / 4.0,
+        edge = mark / 2.0,
         double = 3.0 * mark,
     );
     style

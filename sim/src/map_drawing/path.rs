@@ -54,10 +54,10 @@ impl Paper {
         (self.high.y - self.low.y) * 100.0
     }
 
-    /// The first tag and the ground.
-    pub(super) fn opening(&self, name: &str) -> String {
+    /// The first tag and the ground, with room for a legend of this length, cm.
+    pub(super) fn opening(&self, name: &str, legend_width: f64) -> String {
         let margin = self.size() * MARGIN;
-        let width = ((self.high.x - self.low.x) * 100.0).max(self.size() * super::legend::WIDTH);
+        let width = ((self.high.x - self.low.x) * 100.0).max(legend_width);
         let (width, height) = (
             width + 2.0 * margin,
             self.bottom() + self.size() * LEGEND + 2.0 * margin,
