@@ -94,10 +94,11 @@ fn style(width: f64) -> String {
          stroke-opacity:.5}}\n.lane:hover{{fill:#f0c14b}}\n.mark{{fill:none;stroke-width:{mark:.1}}}\n\
          .white{{stroke:#fff}}\n.yellow{{stroke:#e09c00}}\n.kerb{{stroke:#3f454d}}\n\
          .broken{{stroke-dasharray:300 300}}\n.double{{stroke:#e09c00;stroke-width:{double:.1}}}\n\
-         .between{{stroke:#a3abb6;stroke-width:{mark:.1}}}\n.arrow{{fill:#39424e}}\n\
+         .between{{stroke:#a3abb6;stroke-width:{between:.1}}}\n.arrow{{fill:#39424e}}\n\
          text{{font-family:sans-serif;fill:#1b1f26}}\n</style>\n",
         edge = mark / 2.0,
-        double = 3.0 * mark,
+        double = 4.0 * mark,
+        between = 1.6 * mark,
     );
     style
 }
