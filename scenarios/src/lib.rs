@@ -24,10 +24,13 @@ mod resolve;
 mod route;
 pub mod scenario;
 pub mod schema;
+mod starter;
 mod validity;
 
 pub use error::{DrawError, ScenarioError};
 pub use family::{Drawn, Family};
+pub use map_format::MapFormat;
 pub use map_source::{LoadedMap, MapCache};
 pub use scenario::Scenario;
+pub use starter::{StarterError, starter};
 pub use validity::Rejection;

@@ -6,11 +6,50 @@
 
 use crate::import::{ImportError, apollo, commonroad, lanelet2, opendrive};
 use corridor_decider::road::RoadMap;
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 use std::sync::Arc;
 
 /// First line of a binary map kept as text.
 const BINARY: &str = "# a binary map in hexadecimal\n";
+
+/// The formats of map files that can be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum MapFormat {
+    /// ASAM `OpenDRIVE`.
+    OpenDrive,
+    /// Lanelet2, as OpenStreetMap XML.
+    Lanelet2,
+    /// An Apollo HD map, binary or as text.
+    Apollo,
+    /// A `CommonRoad` scenario, of which the lanelets are the map.
+    CommonRoad,
+}
+
+impl MapFormat {
+    /// The format of a text that [`as_text`] gave. What is none of the others is read as `OpenDRIVE`.
+    pub(crate) fn of(text: &str) -> Self {
+        if text.starts_with(BINARY) || is_apollo_text(text) {
+            return Self::Apollo;
+        }
+        match root_element(text) {
+            Some("osm") => Self::Lanelet2,
+            Some("commonRoad") => Self::CommonRoad,
+            _ => Self::OpenDrive,
+        }
+    }
+}
+
+impl fmt::Display for MapFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::OpenDrive => "OpenDRIVE",
+            Self::Lanelet2 => "Lanelet2",
+            Self::Apollo => "Apollo",
+            Self::CommonRoad => "CommonRoad",
+        })
+    }
+}
 
 /// Endings of the map files that can be read.
 pub(crate) const ENDINGS: [&str; 5] = ["xodr", "xml", "osm", "bin", "txt"];
@@ -30,16 +69,14 @@ pub(crate) fn as_text(bytes: &[u8]) -> String {
 
 /// Reads a map from the text that [`as_text`] gave.
 pub(crate) fn read(text: &str) -> Result<(Arc<RoadMap>, Vec<String>), ImportError> {
-    if let Some(digits) = text.strip_prefix(BINARY) {
-        return read_apollo(&from_hexadecimal(digits)?);
-    }
-    if is_apollo_text(text) {
-        return read_apollo(text.as_bytes());
-    }
-    match root_element(text) {
-        Some("osm") => lanelet2::read(text).map(|read| (Arc::new(read.map), read.warnings)),
-        Some("commonRoad") => commonroad::read(text).map(|read| (read.map, read.warnings)),
-        _ => opendrive::read(text).map(|read| (Arc::new(read.map), read.warnings)),
+    match MapFormat::of(text) {
+        MapFormat::Apollo => match text.strip_prefix(BINARY) {
+            Some(digits) => read_apollo(&from_hexadecimal(digits)?),
+            None => read_apollo(text.as_bytes()),
+        },
+        MapFormat::Lanelet2 => lanelet2::read(text).map(|read| (Arc::new(read.map), read.warnings)),
+        MapFormat::CommonRoad => commonroad::read(text).map(|read| (read.map, read.warnings)),
+        MapFormat::OpenDrive => opendrive::read(text).map(|read| (Arc::new(read.map), read.warnings)),
     }
 }
 

@@ -1,10 +1,13 @@
 //! Finds and reads the map that a scenario names, once for all its seeds.
 
 use crate::error::{Place, ScenarioError};
-use crate::map_format;
+use crate::import::{ImportError, TextPlace};
+use crate::map_format::{self, MapFormat};
 use crate::maps;
 use corridor_decider::road::RoadMap;
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -13,6 +16,9 @@ const MAPS_PREFIX: &str = "$MAPS/";
 
 /// Names the folder of shared maps.
 const MAPS_VARIABLE: &str = "CORRIDOR_MAPS";
+
+/// Most bytes of a map file: many times a whole town's, and little enough for memory. A device has no end.
+const LARGEST_FILE: u64 = 256 << 20;
 
 /// A map with the text it was read from.
 #[derive(Clone, Debug)]
@@ -23,6 +29,61 @@ pub struct LoadedMap {
     pub text: Arc<str>,
     /// What the reader had to leave out or repair.
     pub warnings: Arc<[String]>,
+}
+
+impl LoadedMap {
+    /// Reads a map file of any format, which its content tells.
+    ///
+    /// # Errors
+    /// [`ImportError::InFile`] with the file's name around what the reader or the file system says.
+    pub fn open(path: &Path) -> Result<Self, ImportError> {
+        let bytes = bytes(path).map_err(ImportError::Io);
+        bytes
+            .and_then(|bytes| {
+                let text: Arc<str> = map_format::as_text(&bytes).into();
+                if text.trim().is_empty() {
+                    return Err(empty());
+                }
+                let (map, warnings) = map_format::read(&text)?;
+                Ok(Self {
+                    map,
+                    text,
+                    warnings: warnings.into(),
+                })
+            })
+            .map_err(|error| ImportError::InFile {
+                file: path.display().to_string(),
+                error: Box::new(error),
+            })
+    }
+
+    /// The format it was read from.
+    pub fn format(&self) -> MapFormat {
+        MapFormat::of(&self.text)
+    }
+}
+
+/// The content of a file that is not too large.
+fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let read = File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    if read as u64 > LARGEST_FILE {
+        let problem = format!(
+            "it is larger than the {} MB of the largest map",
+            LARGEST_FILE >> 20
+        );
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, problem));
+    }
+    Ok(bytes)
+}
+
+/// That there is nothing to read.
+fn empty() -> ImportError {
+    ImportError::Text {
+        place: TextPlace { line: 1, column: 1 },
+        problem: "the file is empty".to_owned(),
+        expected: "a map in OpenDRIVE, Lanelet2, Apollo or CommonRoad".to_owned(),
+    }
 }
 
 /// Maps by where they come from. Cheap to share between threads; every map is read once.

@@ -5,6 +5,8 @@ mod clock;
 pub mod closed_loop;
 pub mod decider;
 pub mod explain;
+pub mod map_drawing;
+pub mod map_report;
 pub mod monitor;
 pub mod perception;
 pub mod replay;

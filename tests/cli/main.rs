@@ -7,6 +7,7 @@
 
 mod endings;
 mod inputs;
+mod maps;
 mod outputs;
 mod program;
 mod recorded;

@@ -5,6 +5,8 @@
 
 mod catalog;
 mod export;
+mod import;
+mod map;
 mod output;
 mod run;
 mod source;
@@ -38,6 +40,10 @@ enum Verb {
     Explain(trace::Explain),
     /// Write a page that shows a trace.
     View(trace::View),
+    /// Tell and draw what a map file holds.
+    Map(map::Map),
+    /// Make a scenario of a map file.
+    Import(import::Import),
 }
 
 /// Whether the gates were passed.
@@ -57,6 +63,8 @@ pub(crate) fn main() -> ExitCode {
         Verb::Validate(validate) => validate.execute(),
         Verb::Explain(explain) => explain.execute(),
         Verb::View(view) => view.execute(),
+        Verb::Map(map) => map.execute(),
+        Verb::Import(import) => import.execute(),
     };
     match gate {
         Ok(Gate::Passed) => ExitCode::SUCCESS,

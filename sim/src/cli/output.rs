@@ -37,6 +37,38 @@ pub(crate) fn write(path: &Path, text: &str) -> anyhow::Result<()> {
     written.with_context(|| format!("cannot write `{}`", path.display()))
 }
 
+/// Writes several files, all of them or none: the first is only put in place when the last is written.
+pub(crate) fn write_all(files: &[(PathBuf, Vec<u8>)]) -> anyhow::Result<()> {
+    for (path, _) in files {
+        check(path)?;
+    }
+    let staged = files.iter().try_for_each(|(path, content)| {
+        let written = if is_special(path) {
+            Ok(())
+        } else {
+            std::fs::write(partial(path), content)
+        };
+        written.with_context(|| format!("cannot write `{}`", path.display()))
+    });
+    let placed = staged.and_then(|()| {
+        files.iter().try_for_each(|(path, content)| {
+            let placed = if is_special(path) {
+                std::fs::write(path, content)
+            } else {
+                std::fs::rename(partial(path), path)
+            };
+            placed.with_context(|| format!("cannot write `{}`", path.display()))
+        })
+    });
+    if placed.is_err() {
+        for (path, _) in files {
+            // The first error is the one to tell.
+            let _ = std::fs::remove_file(partial(path));
+        }
+    }
+    placed
+}
+
 /// Whether this is a pipe or a device: such a thing is written to and never replaced.
 fn is_special(path: &Path) -> bool {
     path.metadata().is_ok_and(|what| !what.is_file())

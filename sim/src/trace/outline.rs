@@ -55,8 +55,13 @@ fn is_in_sight(lane: &Lane, lookouts: &[Vec2]) -> bool {
 
 /// Edges and marks of one lane.
 pub(crate) fn outline(lane: &Lane) -> LaneOutline {
+    outline_by(lane, STRIDE)
+}
+
+/// Edges and marks of one lane, of one cross-section in `stride`.
+pub(crate) fn outline_by(lane: &Lane, stride: usize) -> LaneOutline {
     let last = lane.points.len() - 1;
-    let kept: Vec<usize> = (0..=last).filter(|k| k % STRIDE == 0 || *k == last).collect();
+    let kept: Vec<usize> = (0..=last).filter(|k| k % stride == 0 || *k == last).collect();
     let edge = |side: &dyn Fn(usize) -> Vec2| kept.iter().map(|k| side(*k)).collect();
     let points = &lane.points;
     let stations: Vec<f64> = kept.iter().map(|k| points[*k].s).collect();

@@ -23,10 +23,10 @@ pub(super) struct LaneData {
 
 /// A stretch of one kind of line on the ground.
 #[derive(Serialize)]
-pub(super) struct MarkData {
-    kind: BoundaryType,
+pub(crate) struct MarkData {
+    pub(crate) kind: BoundaryType,
     /// `x, y, x, y, …`
-    at: Vec<f64>,
+    pub(crate) at: Vec<f64>,
 }
 
 impl LaneData {
@@ -52,7 +52,7 @@ impl LaneData {
 }
 
 /// The lines painted on the edges of all lanes, each once.
-pub(super) fn marks(lanes: &[LaneOutline], origin: Vec2) -> Vec<MarkData> {
+pub(crate) fn marks(lanes: &[LaneOutline], origin: Vec2) -> Vec<MarkData> {
     let mut painted: Vec<Painted> = Vec::new();
     for lane in lanes {
         for (edge, marks) in [(&lane.left, &lane.left_marks), (&lane.right, &lane.right_marks)] {

@@ -6,10 +6,10 @@
 
 mod data;
 mod intern;
-mod lane;
+pub(crate) mod lane;
 mod line;
 mod series;
-mod thin;
+pub(crate) mod thin;
 mod tick;
 
 use crate::trace::Trace;

@@ -31,6 +31,11 @@ fn round(value: f64, steps: f64) -> f64 {
 /// Places of the points that must stay so that no point is further than [`TOLERANCE`] from the line through the
 /// remaining ones (Douglas and Peucker 1973). Those of `forced` stay, so do the first and the last.
 pub(super) fn keep(points: &[Vec2], forced: impl Fn(usize) -> bool) -> Vec<bool> {
+    keep_within(points, TOLERANCE, forced)
+}
+
+/// As [`keep`], with another tolerance, m.
+pub(crate) fn keep_within(points: &[Vec2], tolerance: f64, forced: impl Fn(usize) -> bool) -> Vec<bool> {
     let mut kept: Vec<bool> = (0..points.len())
         .map(|k| k == 0 || k + 1 == points.len() || forced(k))
         .collect();
@@ -38,7 +43,7 @@ pub(super) fn keep(points: &[Vec2], forced: impl Fn(usize) -> bool) -> Vec<bool>
     let mut open: Vec<(usize, usize)> = anchors.windows(2).map(|pair| (pair[0], pair[1])).collect();
     while let Some((from, to)) = open.pop() {
         let distance = |k: usize| from_chord(points[from], points[to], points[k]);
-        let far = |k: usize| distance(k).is_nan() || distance(k) > TOLERANCE;
+        let far = |k: usize| distance(k).is_nan() || distance(k) > tolerance;
         let worst = (from + 1..to)
             .filter(|k| far(*k))
             .max_by(|a, b| distance(*a).total_cmp(&distance(*b)));
