@@ -39,8 +39,24 @@ pub(crate) fn read(text: &str) -> Result<(Arc<RoadMap>, Vec<String>), ImportErro
     match root_element(text) {
         Some("osm") => lanelet2::read(text).map(|read| (Arc::new(read.map), read.warnings)),
         Some("commonRoad") => commonroad::read(text).map(|read| (read.map, read.warnings)),
-        _ => opendrive::read(text).map(|read| (Arc::new(read.map), read.warnings)),
+        _ => read_opendrive(text),
     }
+}
+
+fn read_opendrive(text: &str) -> Result<(Arc<RoadMap>, Vec<String>), ImportError> {
+    let opendrive::OpenDriveImport {
+        map,
+        objects,
+        mut warnings,
+        ..
+    } = opendrive::read(text)?;
+    let standing = objects.iter().filter(|object| !object.kind.is_flat()).count();
+    if standing > 0 {
+        warnings.push(format!(
+            "{standing} objects of the map that stand beside its roads are not part of scenarios"
+        ));
+    }
+    Ok((Arc::new(map), warnings))
 }
 
 fn read_apollo(bytes: &[u8]) -> Result<(Arc<RoadMap>, Vec<String>), ImportError> {

@@ -49,6 +49,7 @@ pub(super) struct Road {
     /// What the start and the end touch.
     pub(super) links: [Option<RoadLink>; 2],
     pub(super) speeds: Vec<SpeedRecord>,
+    pub(super) signs: Vec<SpeedSign>,
     pub(super) pieces: Vec<Piece>,
     pub(super) offset: Profile,
     pub(super) sections: Vec<Section>,
@@ -113,6 +114,17 @@ impl Extent {
     }
 }
 
+/// How a lane is driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Direction {
+    /// As its side of the road is.
+    Standard,
+    /// Against that.
+    Reversed,
+    /// In both directions.
+    Both,
+}
+
 /// A lane of a section.
 #[derive(Debug)]
 pub(super) struct LaneRecord {
@@ -120,8 +132,7 @@ pub(super) struct LaneRecord {
     pub(super) id: i32,
     pub(super) place: Place,
     pub(super) kind: LaneKind,
-    /// Whether it runs against the side's usual direction.
-    pub(super) reversed: bool,
+    pub(super) direction: Direction,
     /// By road station.
     pub(super) extent: Extent,
     /// The line on the outer edge.
@@ -137,6 +148,8 @@ pub(super) struct MarkRecord {
     pub(super) s: f64,
     pub(super) from_left: BoundaryType,
     pub(super) from_right: BoundaryType,
+    /// Whether the file's `laneChange` lets cross it from the left and from the right.
+    pub(super) change: [bool; 2],
 }
 
 /// A speed limit from a road station on, m/s; infinite: none.
@@ -144,6 +157,17 @@ pub(super) struct MarkRecord {
 pub(super) struct SpeedRecord {
     pub(super) s: f64,
     pub(super) limit: f64,
+}
+
+/// A sign that sets a speed limit, m/s, or ends one; infinite: none.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SpeedSign {
+    pub(super) s: f64,
+    pub(super) limit: f64,
+    /// Whether it is for traffic along the road's station; `None`: for all.
+    pub(super) forward: Option<bool>,
+    /// First and last lane ids that it is for; none: all.
+    pub(super) lanes: Vec<(i32, i32)>,
 }
 
 /// A junction.
