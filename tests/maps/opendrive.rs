@@ -378,7 +378,8 @@ fn objects_are_those_of_the_files() {
     assert_eq!(objects(&motorway, ObjectKind::Barrier).0, 2);
     assert_eq!(objects(&parking, ObjectKind::ParkingSpace).0, 7);
     assert_eq!(objects(&parking, ObjectKind::Crosswalk).0, 3);
-    assert_eq!(objects(&parking, ObjectKind::Tree), (2, 2 * 5));
+    // Five trunks, and five crowns of seven outlines.
+    assert_eq!(objects(&parking, ObjectKind::Tree), (2, 5 + 5 * 7));
     for import in [&motorway, &parking] {
         let kinds = |kind| objects(import, kind).0;
         assert_eq!(kinds(ObjectKind::Other), 0);

@@ -3,7 +3,8 @@
 //! Source: ASAM OpenDRIVE, sections on road geometry, lanes, junctions, objects and signals. Elevation and
 //! superelevation are not read, of the signals only speed limits. Lanes of the result run in driving direction; names
 //! are `road_section_lane`, with sections counted from 0 as in the file; a lane for both directions is two, of which
-//! the one against its side's direction has an `r` behind its name.
+//! the one against its side's direction has an `r` behind its name. A section that another road joins in its middle
+//! counts as two.
 //!
 //! The steps: `records` checks what the elements say, `topology` joins lane ends by the
 //! file's links, `build` samples each section into lanes, `connect` holds the links against the geometry.
@@ -24,6 +25,7 @@ mod profile;
 mod record;
 mod records;
 mod signals;
+mod split;
 mod surface;
 mod topology;
 
@@ -80,6 +82,7 @@ pub fn read_with(text: &str, settings: Settings) -> Result<OpenDriveImport, Impo
     let header = header::read(root)?;
     let mut roads = records::roads(root, &mut notes)?;
     header.shift(&mut roads);
+    split::split(&mut roads, &mut notes);
     if settings.trust_lane_change {
         marks::trust_lane_change(&mut roads);
     }

@@ -31,6 +31,8 @@ impl End {
 pub(super) enum RoadLink {
     /// The end of another road; `None`: the file does not say which.
     Road { id: String, contact: Option<End> },
+    /// A road at a station in its middle, as in virtual junctions.
+    Middle { id: String, s: f64 },
     /// A junction.
     Junction(String),
 }
@@ -74,7 +76,7 @@ impl Road {
 }
 
 /// A stretch of road with a constant list of lanes.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Section {
     /// First station.
     pub(super) s: f64,
@@ -126,7 +128,7 @@ pub(super) enum Direction {
 }
 
 /// A lane of a section.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct LaneRecord {
     /// Positive left of lane 0, counted outward.
     pub(super) id: i32,

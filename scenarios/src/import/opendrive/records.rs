@@ -63,6 +63,10 @@ fn road_link(element: Element<'_>) -> Result<Option<RoadLink>, ImportError> {
     };
     match element.text("elementType") {
         Some("junction") => Ok(Some(RoadLink::Junction(id.to_owned()))),
+        Some("road") | None if element.text("elementS").is_some() => Ok(Some(RoadLink::Middle {
+            id: id.to_owned(),
+            s: element.number("elementS")?,
+        })),
         Some("road") | None => Ok(Some(RoadLink::Road {
             id: id.to_owned(),
             contact: contact(element)?,

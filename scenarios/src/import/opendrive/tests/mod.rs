@@ -3,6 +3,7 @@
 mod directions;
 mod header;
 mod hostile;
+mod junctions;
 mod lanes;
 mod links;
 mod mirrored;
