@@ -157,6 +157,18 @@ mod tests {
         );
     }
 
+    /// Paint does not stand in the way.
+    #[test]
+    fn objects_that_scenarios_leave_out_are_told() {
+        let text = crate::maps::embedded("urban_parking").unwrap();
+        let objects = r#"<objects><object id="1" type="tree" s="1" t="9"><repeat s="1" length="9" distance="3"/></object>
+            <object id="2" type="crosswalk" s="20" t="0" length="3" width="6"/></objects></road>"#;
+        let warnings = read(&text.replace("</road>", objects)).unwrap().1;
+        let told = "4 objects of the map that stand beside its roads are not part of scenarios";
+        assert_eq!(warnings, [told]);
+        assert!(read(text).unwrap().1.is_empty());
+    }
+
     #[test]
     fn the_reader_is_chosen_by_content() {
         let problem = |text: &str| read(text).unwrap_err().to_string();

@@ -99,6 +99,7 @@ fn enough_of_them_are_families_and_the_sweeps_reach_every_end() {
                 Expectation::Refusal => "refusal",
                 Expectation::PulledOverOrRefusal => "either pull-over",
                 Expectation::LaneChanged => "lane changed",
+                Expectation::Goal(_) => "goal",
             })
             .collect()
     };

@@ -1,8 +1,9 @@
 //! Objects: where they are, how large, how many, and what is told of them.
 
 use super::{imported, lane, road, section};
-use crate::import::opendrive::{MapObject, ObjectKind, OpenDriveImport};
+use crate::import::opendrive::{MapObject, ObjectKind as K, OpenDriveImport};
 use corridor_decider::geometry::Vec2;
+use std::f64::consts::FRAC_PI_2;
 
 const STRAIGHT: &str = r#"<geometry s="0" x="0" y="0" hdg="0" length="100"><line/></geometry>"#;
 const BEND: &str = r#"<geometry s="0" x="0" y="0" hdg="0" length="100"><arc curvature="0.02"/></geometry>"#;
@@ -34,11 +35,8 @@ fn a_box_is_centred_and_turned() {
         r#"<object id="7" type="obstacle" s="20" t="4" hdg="1.5707963267948966" length="3" width="1"/>"#,
     );
     assert_corners(&found[0], &[(19.5, 2.5), (20.5, 2.5), (20.5, 5.5), (19.5, 5.5)]);
-    assert_eq!(
-        (found[0].name.as_str(), found[0].kind),
-        ("1_7", ObjectKind::Obstacle)
-    );
-    assert!((found[0].pose.x - 20.0).abs() < 1e-12 && (found[0].pose.theta - 1.570_796).abs() < 1e-6);
+    assert_eq!((found[0].name.as_str(), found[0].kind), ("1_7", K::Obstacle));
+    assert!((found[0].pose.x - 20.0).abs() < 1e-12 && (found[0].pose.theta - FRAC_PI_2).abs() < 1e-9);
 }
 
 #[test]
@@ -90,10 +88,8 @@ fn corners_follow_the_road_or_the_object() {
         ]
     };
     let element = |name: &str, u: &str, v: &str, list: [(f64, f64); 4]| {
-        let corners: String = list
-            .iter()
-            .map(|(a, b)| format!(r#"<{name} {u}="{a}" {v}="{b}"/>"#))
-            .collect();
+        let corner = |(a, b)| format!(r#"<{name} {u}="{a}" {v}="{b}"/>"#);
+        let corners: String = list.into_iter().map(corner).collect();
         format!(r#"<outline id="0" closed="true">{corners}</outline>"#)
     };
     let on_road = element("cornerRoad", "s", "t", corners((30.0, 5.0), (40.0, 10.0)));
@@ -189,7 +185,7 @@ fn a_thing_without_gaps_follows_the_bend() {
         r#"<object id="1" type="railing" s="0" t="0" width="0.4"><repeat s="10" length="500" distance="0" tStart="5"
         tEnd="5"/></object>"#,
     );
-    assert!(found.iter().all(|o| o.kind == ObjectKind::Barrier));
+    assert!(found.iter().all(|o| o.kind == K::Barrier));
     let centre = Vec2::new(0.0, 50.0);
     for part in &found {
         for vertex in part.outline.vertices() {
@@ -212,8 +208,7 @@ fn odd_types_are_kept_and_counted() {
         r#"<object id="1" type="-1" s="1" t="4"/><object id="2" type="" s="2" t="4"/><object id="3" s="3" t="4"/>
         <object id="4" type="rail-pole" s="4" t="4"/><object id="5" type="crossWalk" s="5" t="4"/>"#,
     );
-    let kinds: Vec<ObjectKind> = import.objects.iter().map(|o| o.kind).collect();
-    use ObjectKind as K;
+    let kinds: Vec<K> = import.objects.iter().map(|o| o.kind).collect();
     assert_eq!(kinds, [K::Other, K::Other, K::Other, K::Pole, K::Crosswalk]);
     assert!(kinds[4].is_flat() && !kinds[3].is_flat());
     let told = "not known is kept as it is (3 of this kind in the file)";
