@@ -76,8 +76,24 @@ pub(crate) fn read(text: &str) -> Result<(Arc<RoadMap>, Vec<String>), ImportErro
         },
         MapFormat::Lanelet2 => lanelet2::read(text).map(|read| (Arc::new(read.map), read.warnings)),
         MapFormat::CommonRoad => commonroad::read(text).map(|read| (read.map, read.warnings)),
-        MapFormat::OpenDrive => opendrive::read(text).map(|read| (Arc::new(read.map), read.warnings)),
+        MapFormat::OpenDrive => read_opendrive(text),
     }
+}
+
+fn read_opendrive(text: &str) -> Result<(Arc<RoadMap>, Vec<String>), ImportError> {
+    let opendrive::OpenDriveImport {
+        map,
+        objects,
+        mut warnings,
+        ..
+    } = opendrive::read(text)?;
+    let standing = objects.iter().filter(|object| !object.kind.is_flat()).count();
+    if standing > 0 {
+        warnings.push(format!(
+            "{standing} objects of the map that stand beside its roads are not part of scenarios"
+        ));
+    }
+    Ok((Arc::new(map), warnings))
 }
 
 fn read_apollo(bytes: &[u8]) -> Result<(Arc<RoadMap>, Vec<String>), ImportError> {
@@ -176,6 +192,18 @@ mod tests {
             as_text(b"<OpenDRIVE name='\xe9\x01'/>"),
             "<OpenDRIVE name='\u{fffd}\u{1}'/>"
         );
+    }
+
+    /// Paint does not stand in the way.
+    #[test]
+    fn objects_that_scenarios_leave_out_are_told() {
+        let text = crate::maps::embedded("urban_parking").unwrap();
+        let objects = r#"<objects><object id="1" type="tree" s="1" t="9"><repeat s="1" length="9" distance="3"/></object>
+            <object id="2" type="crosswalk" s="20" t="0" length="3" width="6"/></objects></road>"#;
+        let warnings = read(&text.replace("</road>", objects)).unwrap().1;
+        let told = "4 objects of the map that stand beside its roads are not part of scenarios";
+        assert_eq!(warnings, [told]);
+        assert!(read(text).unwrap().1.is_empty());
     }
 
     #[test]

@@ -3,10 +3,11 @@
 use crate::support::{
     assert_sound, count, first, line, map_file, named, sections, successors, width, worst_joint,
 };
-use corridor_decider::geometry::angle;
+use corridor_decider::geometry::{Vec2, angle};
 use corridor_decider::reference_line::LineQuery;
 use corridor_decider::road::{BoundaryType, LaneKind, Neighbour, RoadMap, Side};
-use corridor_scenarios::import::opendrive;
+use corridor_scenarios::import::opendrive::{self, ObjectKind, OpenDriveImport};
+use std::collections::BTreeSet;
 
 const LEFT_FORWARD: Neighbour = Neighbour {
     side: Side::Left,
@@ -23,10 +24,21 @@ const RIGHT_FORWARD: Neighbour = Neighbour {
 
 /// A map that passed the general checks, and its warnings.
 fn load(name: &str) -> Option<(RoadMap, Vec<String>)> {
-    let file = map_file(&format!("opendrive/{name}.xodr"))?;
-    let import = opendrive::read_file(&file).unwrap_or_else(|error| panic!("{error}"));
+    let import = import(name)?;
     assert_sound(&import.map);
     Some((import.map, import.warnings))
+}
+
+fn import(name: &str) -> Option<OpenDriveImport> {
+    let file = map_file(&format!("opendrive/{name}.xodr"))?;
+    Some(opendrive::read_file(&file).unwrap_or_else(|error| panic!("{error}")))
+}
+
+/// How many elements and how many copies of a kind there are.
+fn objects(import: &OpenDriveImport, kind: ObjectKind) -> (usize, usize) {
+    let of_kind = || import.objects.iter().filter(|object| object.kind == kind);
+    let names: BTreeSet<&str> = of_kind().map(|object| object.name.as_str()).collect();
+    (names.len(), of_kind().count())
 }
 
 fn assert_near(is: f64, expected: f64, tolerance: f64) {
@@ -343,4 +355,96 @@ fn town07_is_a_network() {
         .iter()
         .zip(expected)
         .for_each(|(is, expected)| assert_near(*is, expected, 1e-3));
+}
+
+/// Copies by hand: each repetition's length over its distance, and one.
+#[test]
+fn objects_are_those_of_the_files() {
+    for name in [
+        "straight_500m",
+        "curves",
+        "fabriksgatan",
+        "two_plus_one",
+        "Ex_Entry_Exit",
+        "carla_Town07_libOpenDRIVE_test",
+    ] {
+        let Some(import) = import(name) else { return };
+        assert!(import.objects.is_empty(), "{name}");
+    }
+    let (Some(motorway), Some(parking)) = (import("e6mini"), import("parking_demo")) else {
+        return;
+    };
+    assert_eq!(objects(&motorway, ObjectKind::Pole), (4, 2 * 367 + 2 * 30));
+    assert_eq!(objects(&motorway, ObjectKind::Barrier).0, 2);
+    assert_eq!(objects(&parking, ObjectKind::ParkingSpace).0, 7);
+    assert_eq!(objects(&parking, ObjectKind::Crosswalk).0, 3);
+    // Five trunks, and five crowns of seven outlines.
+    assert_eq!(objects(&parking, ObjectKind::Tree), (2, 5 + 5 * 7));
+    for import in [&motorway, &parking] {
+        let kinds = |kind| objects(import, kind).0;
+        assert_eq!(kinds(ObjectKind::Other), 0);
+        for object in import.objects.iter().filter(|object| !object.kind.is_flat()) {
+            for &corner in object.outline.vertices() {
+                assert!(
+                    import.map.lanes_at(corner).is_empty(),
+                    "{} on a lane",
+                    object.name
+                );
+            }
+        }
+    }
+}
+
+/// Where bays are drawn on road 1 there is a bay lane below them, and each has the size of a car.
+#[test]
+fn parking_spaces_lie_on_the_bays() {
+    let Some(import) = import("parking_demo") else {
+        return;
+    };
+    let spaces = import
+        .objects
+        .iter()
+        .filter(|object| object.kind == ObjectKind::ParkingSpace);
+    for space in spaces.filter(|object| object.name.starts_with("1_")) {
+        let area = space.outline.area();
+        assert!(area > 9.0 && area < 16.0, "{}: {area} m²", space.name);
+        let corners = space.outline.vertices();
+        let middle = corners.iter().sum::<Vec2>() / corners.len() as f64;
+        assert!(
+            import.map.distance_off_road(middle) < 1e-9,
+            "{} beside the road",
+            space.name
+        );
+        assert!(import.map.lanes_at(middle).is_empty(), "{} on a lane", space.name);
+    }
+}
+
+#[test]
+fn direct_junctions_link_both_ways() {
+    let Some((map, _)) = load("Ex_Entry_Exit") else {
+        return;
+    };
+    let predecessors = |name: &str| -> Vec<&str> {
+        let ids = &named(&map, name).predecessors;
+        ids.iter().map(|id| map.lane(*id).name.as_str()).collect()
+    };
+    for (to, from) in [
+        ("313_0_-2", "315_2_-2"),
+        ("313_0_-4", "292_1_-1"),
+        ("305_0_-2", "300_0_-2"),
+        ("305_0_-3", "300_0_-3"),
+        ("308_0_-1", "300_0_-3"),
+        ("308_0_-2", "300_0_-4"),
+    ] {
+        assert_eq!(predecessors(to), [from], "to {to}");
+    }
+}
+
+#[test]
+fn the_place_on_the_earth_is_kept() {
+    let Some(import) = import("straight_500m") else {
+        return;
+    };
+    let text = import.geo_reference.unwrap();
+    assert!(text.starts_with("+proj=utm"), "{text}");
 }

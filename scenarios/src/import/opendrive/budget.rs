@@ -15,6 +15,9 @@ const LIMIT_IN_WORDS: &str = "5 million cross-sections";
 /// that grows with the square of its reach.
 const CELL: f64 = 8.0;
 
+/// What an object costs beyond its corners: its name, kind and pose.
+const OBJECT: f64 = 20.0;
+
 /// What is left of the limit.
 pub(super) struct Budget<'a> {
     lines: &'a Lines<'a>,
@@ -34,6 +37,11 @@ impl<'a> Budget<'a> {
     /// Accounts for a stretch of lane whose farthest corners are `reach` apart.
     pub(super) fn stretch(&mut self, reach: f64, road: &Road) -> Result<(), ImportError> {
         self.spend(1.0 + (reach / CELL) * (reach / CELL), road)
+    }
+
+    /// Accounts for `count` copies of an object of so many corners.
+    pub(super) fn objects(&mut self, count: f64, corners: f64, road: &Road) -> Result<(), ImportError> {
+        self.spend(count * (OBJECT + corners), road)
     }
 
     fn spend(&mut self, cost: f64, road: &Road) -> Result<(), ImportError> {

@@ -3,9 +3,9 @@
 use super::budget::Budget;
 use super::connect::{Fate, connect};
 use super::cross_section::{CrossSection, cross_sections};
-use super::lane_build::{centre_line, runs_forward};
+use super::lane_build::{CentreLine, centre_line, runs_forward};
 use super::marks::marks;
-use super::record::{JunctionRecord, Road};
+use super::record::{Direction, JunctionRecord, Road};
 use super::surface::surface;
 use super::topology::Topology;
 use crate::import::ImportError;
@@ -114,8 +114,8 @@ impl Builder<'_, '_> {
         let mut kept = Vec::new();
         for (lane, &kind) in kinds.iter().enumerate() {
             let fate = self.lane(road, number, (lane, kind), &cuts, &surfaces)?;
-            if let Fate::Kept { id, forward } = fate {
-                kept.push((id, forward));
+            if matches!(fate, Fate::Kept { .. }) {
+                kept.push(fate);
             }
             self.fates[first + lane] = fate;
         }
@@ -159,7 +159,8 @@ impl Builder<'_, '_> {
                 });
             return Ok(Fate::Dropped);
         }
-        let line = centre_line(road, record, lane, cuts, surfaces, &mut self.budget)?;
+        let forward = runs_forward(road, record);
+        let line = centre_line(road, (record, forward), lane, cuts, surfaces, &mut self.budget)?;
         if line.points.len() < 2 {
             self.notes
                 .add("a lane without any length is left out", record.place, || {
@@ -171,7 +172,26 @@ impl Builder<'_, '_> {
             let what = "a lane that reaches beyond the centre of its bend";
             self.notes.add(what, record.place, || format!("lane `{name}`"));
         }
-        let forward = runs_forward(road, record);
+        let back = if record.direction == Direction::Both && kind.is_drivable() {
+            let line = centre_line(road, (record, !forward), lane, cuts, surfaces, &mut self.budget)?;
+            (line.points.len() > 1).then_some((line, format!("{name}r")))
+        } else {
+            None
+        };
+        let id = self.add(road, section, (lane, kind), (line, name), forward);
+        let back = back.map(|way| self.add(road, section, (lane, kind), way, !forward));
+        Ok(Fate::Kept { id, forward, back })
+    }
+
+    /// Adds one direction of a lane.
+    fn add(
+        &mut self,
+        road: &Road,
+        section: usize,
+        (lane, kind): (usize, LaneKind),
+        (line, name): (CentreLine, String),
+        forward: bool,
+    ) -> LaneId {
         let (left_marks, right_marks) = marks(&road.sections[section], lane, &line, forward);
         let id = LaneId(u32::try_from(self.lanes.len()).expect("a file of 4 GB at most"));
         let junction = road.junction.as_deref().map(|id| self.junction(id));
@@ -187,26 +207,34 @@ impl Builder<'_, '_> {
             predecessors: Vec::new(),
             successors: Vec::new(),
         });
-        self.places.push(record.place);
-        Ok(Fate::Kept { id, forward })
+        self.places.push(road.sections[section].lanes[lane].place);
+        id
     }
 
     /// Makes drivable lanes side by side neighbours. `kept` runs from left to right.
-    fn neighbours(&mut self, kept: &[(LaneId, bool)]) {
+    fn neighbours(&mut self, kept: &[Fate]) {
         for pair in kept.windows(2) {
-            let [(a, a_forward), (b, b_forward)] = [pair[0], pair[1]];
-            if !self.lanes[a.0 as usize].kind.is_drivable() || !self.lanes[b.0 as usize].kind.is_drivable() {
-                continue;
+            for (a, a_forward) in pair[0].ways() {
+                for (b, b_forward) in pair[1].ways() {
+                    self.side_by_side((a, a_forward), (b, b_forward));
+                }
             }
-            let reverse = a_forward != b_forward;
-            let a_sees_b = if a_forward { Side::Right } else { Side::Left };
-            let b_sees_a = if b_forward { Side::Left } else { Side::Right };
-            let mut set = |lane: LaneId, side: Side, other: LaneId| {
-                self.lanes[lane.0 as usize].neighbours[Neighbour { side, reverse }.index()] = Some(other);
-            };
-            set(a, a_sees_b, b);
-            set(b, b_sees_a, a);
         }
+    }
+
+    /// Makes two lanes neighbours, the left one first, if both can be driven on.
+    fn side_by_side(&mut self, (a, a_forward): (LaneId, bool), (b, b_forward): (LaneId, bool)) {
+        if !self.lanes[a.0 as usize].kind.is_drivable() || !self.lanes[b.0 as usize].kind.is_drivable() {
+            return;
+        }
+        let reverse = a_forward != b_forward;
+        let a_sees_b = if a_forward { Side::Right } else { Side::Left };
+        let b_sees_a = if b_forward { Side::Left } else { Side::Right };
+        let mut set = |lane: LaneId, side: Side, other: LaneId| {
+            self.lanes[lane.0 as usize].neighbours[Neighbour { side, reverse }.index()] = Some(other);
+        };
+        set(a, a_sees_b, b);
+        set(b, b_sees_a, a);
     }
 }
 
@@ -217,6 +245,7 @@ fn names_a_speed(road: &Road) -> bool {
         .flat_map(|lane| &lane.speeds)
         .chain(&road.speeds)
         .any(|record| record.limit.is_finite())
+        || road.signs.iter().any(|sign| sign.limit.is_finite())
 }
 
 fn width(cut: &CrossSection, lane: usize) -> f64 {

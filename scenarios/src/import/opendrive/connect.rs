@@ -29,12 +29,35 @@ const FOUND_WIDTH: f64 = 1.0;
 /// What became of a lane of the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Fate {
-    /// It is in the map.
-    Kept { id: LaneId, forward: bool },
+    /// It is in the map; `back` is its other direction, if it has both.
+    Kept {
+        id: LaneId,
+        forward: bool,
+        back: Option<LaneId>,
+    },
     /// Its section is too short; links go through it.
     Bridged,
     /// It has no width; links end at it.
     Dropped,
+}
+
+impl Fate {
+    /// The lanes of the map that it became, and whether they run with the road's station.
+    pub(super) fn ways(self) -> impl Iterator<Item = (LaneId, bool)> {
+        let ways = match self {
+            Self::Kept { id, forward, back } => [Some((id, forward)), back.map(|id| (id, !forward))],
+            Self::Bridged | Self::Dropped => [None, None],
+        };
+        ways.into_iter().flatten()
+    }
+
+    /// The lane that is entered at this end.
+    fn entered_at(self, end: End) -> Option<LaneId> {
+        let entry = |forward: bool| if forward { End::Start } else { End::Finish };
+        self.ways()
+            .find(|(_, forward)| entry(*forward) == end)
+            .map(|(id, _)| id)
+    }
 }
 
 /// Fills in the links of all lanes. `fates` are by lane number, `places` by [`LaneId`].
@@ -47,29 +70,21 @@ pub(super) fn connect(
 ) {
     let mut links: BTreeSet<(LaneId, LaneId)> = BTreeSet::new();
     for (lane, fate) in fates.iter().enumerate() {
-        let Fate::Kept { id, forward } = *fate else {
-            continue;
-        };
-        let exit = if forward { End::Finish } else { End::Start };
-        for touch in beyond(topology, fates, Port { lane, end: exit }) {
-            let Fate::Kept { id: next, forward } = fates[touch.port.lane] else {
-                continue;
-            };
-            let (from, to) = (&lanes[index(id)], &lanes[index(next)]);
-            let entry = if forward { End::Start } else { End::Finish };
-            let relevant = touch.certain && from.kind.is_drivable() && to.kind.is_drivable();
-            if touch.port.end != entry {
-                if relevant {
-                    let what = "linked lanes that lead against each other are not joined";
-                    notes.add(what, places[index(id)], || {
-                        format!("lanes `{}` and `{}`", from.name, to.name)
-                    });
+        for (id, forward) in fate.ways() {
+            let exit = if forward { End::Finish } else { End::Start };
+            for touch in beyond(topology, fates, Port { lane, end: exit }) {
+                let next = fates[touch.port.lane];
+                if let Some(next) = next.entered_at(touch.port.end) {
+                    join((id, next), touch.certain, lanes, &mut links, places, notes);
+                } else if let (Fate::Kept { back: None, .. }, Some((next, _))) = (fate, next.ways().next()) {
+                    let (from, to) = (&lanes[index(id)], &lanes[index(next)]);
+                    if touch.certain && from.kind.is_drivable() && to.kind.is_drivable() {
+                        let what = "linked lanes that lead against each other are not joined";
+                        notes.add(what, places[index(id)], || {
+                            format!("lanes `{}` and `{}`", from.name, to.name)
+                        });
+                    }
                 }
-            } else if meet(from, to, JOIN_DISTANCE, JOIN_TURN) {
-                links.insert((id, next));
-            } else if relevant {
-                let what = "linked lanes that do not meet are not joined";
-                notes.add(what, places[index(id)], || describe_gap(from, to));
             }
         }
     }
@@ -77,6 +92,24 @@ pub(super) fn connect(
     for (from, to) in links {
         lanes[index(from)].successors.push(to);
         lanes[index(to)].predecessors.push(from);
+    }
+}
+
+/// Links two lanes if they meet.
+fn join(
+    (id, next): (LaneId, LaneId),
+    certain: bool,
+    lanes: &[Lane],
+    links: &mut BTreeSet<(LaneId, LaneId)>,
+    places: &[Place],
+    notes: &mut Notes<'_>,
+) {
+    let (from, to) = (&lanes[index(id)], &lanes[index(next)]);
+    if meet(from, to, JOIN_DISTANCE, JOIN_TURN) {
+        links.insert((id, next));
+    } else if certain && from.kind.is_drivable() && to.kind.is_drivable() {
+        let what = "linked lanes that do not meet are not joined";
+        notes.add(what, places[index(id)], || describe_gap(from, to));
     }
 }
 

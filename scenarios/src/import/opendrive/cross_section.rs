@@ -53,8 +53,8 @@ pub(super) fn cross_sections(
     Ok(stations.iter().enumerate().map(cut).collect())
 }
 
-/// The piece of reference line that rules at a station.
-fn piece(road: &Road, s: f64) -> &Piece {
+/// The piece of reference line that rules at a station. The road must have one.
+pub(super) fn piece(road: &Road, s: f64) -> &Piece {
     let past = road.pieces.partition_point(|piece| piece.s <= s);
     &road.pieces[past.saturating_sub(1)]
 }
@@ -90,9 +90,11 @@ fn cuts(road: &Road, section: usize) -> Vec<f64> {
         .flat_map(|lane| &lane.speeds)
         .chain(&road.speeds)
         .map(|record| record.s);
+    let signs = road.signs.iter().map(|sign| sign.s);
     let pieces = road.pieces.iter().map(|piece| piece.s);
     let mut cuts: Vec<f64> = widths
         .chain(speeds)
+        .chain(signs)
         .chain(pieces)
         .chain(road.offset.starts())
         .collect();

@@ -6,7 +6,8 @@
 use super::budget::Budget;
 use super::cross_section::CrossSection;
 use super::geometry::CurvePoint;
-use super::record::{LaneRecord, Road, SpeedRecord};
+use super::limits::Limits;
+use super::record::{Direction, LaneRecord, Road};
 use crate::import::ImportError;
 use corridor_decider::geometry::angle;
 use corridor_decider::road::LanePoint;
@@ -34,16 +35,17 @@ pub(super) struct CentreLine {
     pub(super) folded: bool,
 }
 
-/// The centre line of the `lane`-th lane from the left. `surface` are the road edges per cross-section and lane.
+/// The centre line of the `lane`-th lane from the left, along the road's station or against it. `surface` are the road
+/// edges per cross-section and lane.
 pub(super) fn centre_line(
     road: &Road,
-    record: &LaneRecord,
+    (record, forward): (&LaneRecord, bool),
     lane: usize,
     cuts: &[CrossSection],
     surface: &[Vec<(f64, f64)>],
     budget: &mut Budget<'_>,
 ) -> Result<CentreLine, ImportError> {
-    let forward = runs_forward(road, record);
+    let limits = Limits::new(road, record, forward);
     let mut line = CentreLine {
         points: Vec::new(),
         road_s: Vec::new(),
@@ -54,7 +56,7 @@ pub(super) fn centre_line(
         let (cut, road_edges) = (&cuts[k], surface[k][lane]);
         let (mut point, folded) = lane_point(cut, lane, road_edges);
         line.folded |= folded;
-        point.speed_limit = speed_limit(road, record, if forward { cut.s } else { cut.s - BEFORE });
+        point.speed_limit = limits.at(if forward { cut.s } else { cut.s - BEFORE });
         if !forward {
             point = turned_round(point);
         }
@@ -64,9 +66,9 @@ pub(super) fn centre_line(
     Ok(line)
 }
 
-/// Whether traffic on a lane runs with the road's station.
+/// Whether traffic on a lane runs with the road's station; of a lane for both directions, the one of its side.
 pub(super) fn runs_forward(road: &Road, lane: &LaneRecord) -> bool {
-    ((lane.id < 0) != road.left_hand) != lane.reversed
+    ((lane.id < 0) != road.left_hand) != (lane.direction == Direction::Reversed)
 }
 
 /// The cross-section of one lane, along the road's station.
@@ -150,17 +152,6 @@ fn append(line: &mut CentreLine, mut point: LanePoint, road_s: f64, last: bool) 
     line.points.push(point);
     line.road_s.push(road_s);
     chord + width
-}
-
-/// The lane's own limit, else that of the road, else none.
-fn speed_limit(road: &Road, lane: &LaneRecord, s: f64) -> f64 {
-    let ruling = |records: &[SpeedRecord]| {
-        let past = records.partition_point(|record| record.s <= s);
-        past.checked_sub(1).map(|k| records[k].limit)
-    };
-    ruling(&lane.speeds)
-        .or_else(|| ruling(&road.speeds))
-        .unwrap_or(f64::INFINITY)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Reads `<lanes>`: sections, lanes, widths, marks and speeds.
 
 use super::profile::{Cubic, Profile};
-use super::record::{Extent, LaneRecord, MarkRecord, Section, SpeedRecord};
+use super::record::{Direction, Extent, LaneRecord, MarkRecord, Section, SpeedRecord};
 use crate::import::ImportError;
 use crate::import::notes::Notes;
 use crate::import::xml::Element;
@@ -74,12 +74,22 @@ fn read_lane(
         id,
         place: element.place(),
         kind,
-        reversed: element.text("direction") == Some("reversed"),
+        direction: direction(element, name),
         extent: extent(element, s, notes)?,
         marks: marks(element, s, id)?,
         speeds: lane_speeds(element, s, notes)?,
         links: [link_ids(element, "predecessor")?, link_ids(element, "successor")?],
     })
+}
+
+/// `direction` since 1.8; before, a type of its own for lanes that both directions share.
+fn direction(lane: Element<'_>, kind: &str) -> Direction {
+    match lane.text("direction") {
+        Some("reversed") => Direction::Reversed,
+        Some("both") => Direction::Both,
+        None if kind == "bidirectional" => Direction::Both,
+        _ => Direction::Standard,
+    }
 }
 
 /// The lane types of OpenDRIVE 1.1 to 1.8.
@@ -170,10 +180,21 @@ fn marks(lane: Element<'_>, s: f64, id: i32) -> Result<Vec<MarkRecord>, ImportEr
             s: s + mark.number_or("sOffset", 0.0)?,
             from_left,
             from_right,
+            change: lane_change(mark),
         });
     }
     records.sort_by(|a, b| a.s.total_cmp(&b.s));
     Ok(records)
+}
+
+/// Whether a lane change is allowed from the left and from the right of a mark. Ids increase towards the left.
+fn lane_change(mark: Element<'_>) -> [bool; 2] {
+    match mark.text("laneChange") {
+        Some("none") => [false, false],
+        Some("increase") => [false, true],
+        Some("decrease") => [true, false],
+        _ => [true, true],
+    }
 }
 
 /// The classes of the first and the second line of a mark; single lines are both.

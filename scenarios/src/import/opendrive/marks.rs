@@ -1,7 +1,7 @@
 //! Road marks of a section, told along each lane in driving direction.
 
 use super::lane_build::CentreLine;
-use super::record::{MarkRecord, Section};
+use super::record::{MarkRecord, Road, Section};
 use corridor_decider::road::{BoundaryType, Mark};
 
 /// Lines on the left and the right edge of the `lane`-th lane from the left.
@@ -17,6 +17,25 @@ pub(super) fn marks(
         mark.from_left
     });
     if forward { (upper, lower) } else { (lower, upper) }
+}
+
+/// Makes broken lines solid on the side from which `laneChange` forbids to cross them.
+pub(super) fn trust_lane_change(roads: &mut [Road]) {
+    let sections = roads.iter_mut().flat_map(|road| &mut road.sections);
+    let records = sections.flat_map(|section| {
+        let lanes = section.lanes.iter_mut().flat_map(|lane| &mut lane.marks);
+        lanes.chain(&mut section.centre_marks)
+    });
+    for record in records {
+        let [left, right] = record.change;
+        for (allowed, kind) in [(left, &mut record.from_left), (right, &mut record.from_right)] {
+            *kind = match *kind {
+                BoundaryType::DottedWhite if !allowed => BoundaryType::SolidWhite,
+                BoundaryType::DottedYellow if !allowed => BoundaryType::SolidYellow,
+                other => other,
+            };
+        }
+    }
 }
 
 /// The records of the `edge`-th lane edge from the left. Files give them to the lane inside the edge.

@@ -31,6 +31,8 @@ impl End {
 pub(super) enum RoadLink {
     /// The end of another road; `None`: the file does not say which.
     Road { id: String, contact: Option<End> },
+    /// A road at a station in its middle, as in virtual junctions.
+    Middle { id: String, s: f64 },
     /// A junction.
     Junction(String),
 }
@@ -49,6 +51,7 @@ pub(super) struct Road {
     /// What the start and the end touch.
     pub(super) links: [Option<RoadLink>; 2],
     pub(super) speeds: Vec<SpeedRecord>,
+    pub(super) signs: Vec<SpeedSign>,
     pub(super) pieces: Vec<Piece>,
     pub(super) offset: Profile,
     pub(super) sections: Vec<Section>,
@@ -73,7 +76,7 @@ impl Road {
 }
 
 /// A stretch of road with a constant list of lanes.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Section {
     /// First station.
     pub(super) s: f64,
@@ -113,15 +116,25 @@ impl Extent {
     }
 }
 
+/// How a lane is driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Direction {
+    /// As its side of the road is.
+    Standard,
+    /// Against that.
+    Reversed,
+    /// In both directions.
+    Both,
+}
+
 /// A lane of a section.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct LaneRecord {
     /// Positive left of lane 0, counted outward.
     pub(super) id: i32,
     pub(super) place: Place,
     pub(super) kind: LaneKind,
-    /// Whether it runs against the side's usual direction.
-    pub(super) reversed: bool,
+    pub(super) direction: Direction,
     /// By road station.
     pub(super) extent: Extent,
     /// The line on the outer edge.
@@ -137,6 +150,8 @@ pub(super) struct MarkRecord {
     pub(super) s: f64,
     pub(super) from_left: BoundaryType,
     pub(super) from_right: BoundaryType,
+    /// Whether the file's `laneChange` lets cross it from the left and from the right.
+    pub(super) change: [bool; 2],
 }
 
 /// A speed limit from a road station on, m/s; infinite: none.
@@ -144,6 +159,17 @@ pub(super) struct MarkRecord {
 pub(super) struct SpeedRecord {
     pub(super) s: f64,
     pub(super) limit: f64,
+}
+
+/// A sign that sets a speed limit, m/s, or ends one; infinite: none.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SpeedSign {
+    pub(super) s: f64,
+    pub(super) limit: f64,
+    /// Whether it is for traffic along the road's station; `None`: for all.
+    pub(super) forward: Option<bool>,
+    /// First and last lane ids that it is for; none: all.
+    pub(super) lanes: Vec<(i32, i32)>,
 }
 
 /// A junction.

@@ -1,7 +1,7 @@
 //! Reads the root: roads and junctions.
 
 use super::record::{Connection, End, JunctionRecord, Road, RoadLink, SpeedRecord};
-use super::{lane_read, plan_view};
+use super::{lane_read, plan_view, signals};
 use crate::import::ImportError;
 use crate::import::notes::Notes;
 use crate::import::xml::Element;
@@ -50,6 +50,7 @@ fn road(element: Element<'_>, notes: &mut Notes<'_>) -> Result<Road, ImportError
             .map(str::to_owned),
         links: [link("predecessor")?, link("successor")?],
         speeds: road_speeds(element, notes)?,
+        signs: signals::speed_signs(element, notes),
         pieces,
         offset,
         sections,
@@ -62,6 +63,10 @@ fn road_link(element: Element<'_>) -> Result<Option<RoadLink>, ImportError> {
     };
     match element.text("elementType") {
         Some("junction") => Ok(Some(RoadLink::Junction(id.to_owned()))),
+        Some("road") | None if element.text("elementS").is_some() => Ok(Some(RoadLink::Middle {
+            id: id.to_owned(),
+            s: element.number("elementS")?,
+        })),
         Some("road") | None => Ok(Some(RoadLink::Road {
             id: id.to_owned(),
             contact: contact(element)?,

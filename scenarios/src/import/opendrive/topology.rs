@@ -6,6 +6,9 @@ use super::record::{Connection, End, JunctionRecord, Road, RoadLink};
 use crate::import::notes::Notes;
 use std::collections::BTreeMap;
 
+/// How far a station in the middle of a road may be from the boundary of sections that it means, m.
+const SAME_STATION: f64 = 2e-3;
+
 /// One end of the lane with this number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Port {
@@ -185,7 +188,7 @@ impl Joiner<'_, '_> {
 
     fn road_end(&mut self, road: usize, end: End) {
         let roads = self.roads;
-        let Some(RoadLink::Road { id, contact }) = roads[road].link(end) else {
+        let Some(RoadLink::Road { id, .. } | RoadLink::Middle { id, .. }) = roads[road].link(end) else {
             return;
         };
         let Some(&other) = self.by_id.get(id.as_str()) else {
@@ -195,9 +198,36 @@ impl Joiner<'_, '_> {
                 .add(what, content.place, || format!("road `{}` to `{id}`", content.id));
             return;
         };
-        for (contact, certain) in readings(*contact) {
-            self.join_as_recorded(self.mouth(road, end), self.mouth(other, contact), certain);
+        for (mouth, certain) in self.mouths(road, end, other) {
+            self.join_as_recorded(self.mouth(road, end), mouth, certain);
         }
+    }
+
+    /// What one end of a road touches of `other`, which its link names.
+    fn mouths(&self, road: usize, end: End, other: usize) -> Vec<(Mouth, bool)> {
+        match self.roads[road].link(end) {
+            Some(RoadLink::Road { contact, .. }) => readings(*contact)
+                .into_iter()
+                .map(|(contact, certain)| (self.mouth(other, contact), certain))
+                .collect(),
+            // Files do not agree on which of the two stretches is meant.
+            Some(RoadLink::Middle { s, .. }) => self.mouths_at(other, *s),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The ends of the sections that meet at a station in the middle of a road, as guesses.
+    fn mouths_at(&self, road: usize, s: f64) -> Vec<(Mouth, bool)> {
+        let mut mouths = Vec::new();
+        for section in 0..self.roads[road].sections.len() {
+            let (start, finish) = self.roads[road].extent(section);
+            for (end, at) in [(End::Start, start), (End::Finish, finish)] {
+                if (at - s).abs() <= SAME_STATION {
+                    mouths.push((Mouth { road, section, end }, false));
+                }
+            }
+        }
+        mouths
     }
 
     fn connection(&mut self, junction: &JunctionRecord, connection: &Connection) {
@@ -209,9 +239,9 @@ impl Joiner<'_, '_> {
                 .add(what, connection.place, || format!("junction `{}`", junction.id));
             return;
         };
-        for (at, certain_at) in readings(self.end_at(incoming, &junction.id)) {
-            for (contact, certain_contact) in readings(connection.contact) {
-                let (a, b) = (self.mouth(incoming, at), self.mouth(connecting, contact));
+        for (contact, certain_contact) in readings(connection.contact) {
+            let b = self.mouth(connecting, contact);
+            for (a, certain_at) in self.incoming_mouths(incoming, connecting, contact, &junction.id) {
                 for &(from, to) in &connection.lanes {
                     let joined = self.join((a, from), (b, to), certain_at && certain_contact);
                     if !joined && from != 0 && to != 0 {
@@ -220,6 +250,26 @@ impl Joiner<'_, '_> {
                 }
             }
         }
+    }
+
+    /// The ends of the incoming road at which a connection begins: its own end at the junction or, where the main
+    /// road of a virtual junction passes through, the station that the connecting road names.
+    fn incoming_mouths(
+        &self,
+        incoming: usize,
+        connecting: usize,
+        contact: End,
+        junction: &str,
+    ) -> Vec<(Mouth, bool)> {
+        if let Some(RoadLink::Middle { id, .. }) = self.roads[connecting].link(contact)
+            && *id == self.roads[incoming].id
+        {
+            return self.mouths(connecting, contact, incoming);
+        }
+        let ends = readings(self.end_at(incoming, junction));
+        ends.into_iter()
+            .map(|(end, certain)| (self.mouth(incoming, end), certain))
+            .collect()
     }
 
     /// The end of a road that touches a junction, when it is exactly one.

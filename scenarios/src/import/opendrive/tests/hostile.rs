@@ -163,6 +163,49 @@ fn a_missing_file_is_named() {
     assert!(error.starts_with("no/such.xodr: cannot be read"), "{error}");
 }
 
+/// One road with an object of this text.
+fn with_object(object: &str) -> String {
+    one_road().replace("</road>", &format!("<objects>{object}</objects></road>"))
+}
+
+#[test]
+fn objects_without_number_are_refused() {
+    for repeat in [
+        r#"s="0" length="100" distance="1e-9""#,
+        r#"s="0" length="1e300" distance="1e-300""#,
+        r#"s="0" length="100" distance="0.0003""#,
+    ] {
+        let object = format!(r#"<object id="1" type="tree" s="0" t="4"><repeat {repeat}/></object>"#);
+        let refused = matches!(
+            opendrive::read(&with_object(&object)),
+            Err(ImportError::TooLarge { .. })
+        );
+        assert!(refused, "{repeat}");
+    }
+    // No length, so no copies but the first, however small the step.
+    let object =
+        r#"<object id="1" type="tree" s="0" t="4"><repeat s="5" length="0" distance="1e-300"/></object>"#;
+    assert_eq!(opendrive::read(&with_object(object)).unwrap().objects.len(), 1);
+}
+
+#[test]
+fn an_outline_of_a_million_corners_is_a_hull_and_copies_of_it_are_refused() {
+    let corner = |k: u32| format!(r#"<cornerLocal u="{}" v="{}"/>"#, k % 1000, k / 1000);
+    let corners: String = (0..1_000_000).map(corner).collect();
+    let object = |repeat: &str| {
+        with_object(&format!(
+            r#"<object id="1" type="building" s="0" t="4">{repeat}<outline>{corners}</outline></object>"#
+        ))
+    };
+    let objects = opendrive::read(&object("")).unwrap().objects;
+    assert_eq!(objects[0].outline.vertices().len(), 4);
+    let many = object(r#"<repeat s="0" length="100" distance="10"/>"#);
+    assert!(matches!(
+        opendrive::read(&many),
+        Err(ImportError::TooLarge { .. })
+    ));
+}
+
 /// Values that a number may be replaced by.
 const EXTREMES: [&str; 10] = [
     "NaN", "-1", "1e9", "1e308", "0", "-0.0", "1e-9", "99999", "", "0x7",

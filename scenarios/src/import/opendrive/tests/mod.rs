@@ -1,8 +1,14 @@
 //! The importer on small roads written for one question each.
 
+mod directions;
+mod header;
 mod hostile;
+mod junctions;
 mod lanes;
 mod links;
+mod mirrored;
+mod objects;
+mod signals;
 
 use super::{OpenDriveImport, read};
 use corridor_decider::road::{Lane, RoadMap};
