@@ -83,7 +83,11 @@ fn recorded() -> Vec<u8> {
     let family = Family::parse(text, "short.toml", Path::new("")).expect("an own scenario");
     let drawn = family.draw(0).expect("an own scenario");
     // Targets are at work side by side when tests are.
-    let file = std::env::temp_dir().join(format!("corridor-fuzz-{}-{:?}.trace", std::process::id(), std::thread::current().id()));
+    let file = std::env::temp_dir().join(format!(
+        "corridor-fuzz-{}-{:?}.trace",
+        std::process::id(),
+        std::thread::current().id()
+    ));
     let written = run::run_traced(&family, &drawn.scenario, &[], &Settings::default(), &file);
     written.expect("the folder for temporary files can be written to");
     let bytes = std::fs::read(&file).expect("was written");

@@ -36,7 +36,10 @@ impl Meter {
     /// Memory in bytes and time since the start, as far as they are counted here.
     pub(crate) fn read(&self) -> (u64, Duration) {
         let memory = self.memory.zip(peak()).map(|(from, to)| to.saturating_sub(from));
-        let work = self.work.zip(on_processor()).map(|(from, to)| to.saturating_sub(from));
+        let work = self
+            .work
+            .zip(on_processor())
+            .map(|(from, to)| to.saturating_sub(from));
         (memory.unwrap_or_default(), work.unwrap_or_default())
     }
 

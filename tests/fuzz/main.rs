@@ -33,7 +33,9 @@ struct Tally {
 
 fn setting(name: &str, usual: u64) -> u64 {
     let set = std::env::var(name).ok();
-    set.map_or(usual, |text| text.parse().unwrap_or_else(|_| panic!("{name} is no number")))
+    set.map_or(usual, |text| {
+        text.parse().unwrap_or_else(|_| panic!("{name} is no number"))
+    })
 }
 
 /// Where the input at hand of a target lies.
@@ -47,7 +49,9 @@ fn try_one(name: &str, target: Target, bytes: &[u8], tally: &mut Tally) {
     std::fs::write(&file, bytes).expect("the target folder can be written to");
     let meter = Meter::start();
     let fault = match catch_unwind(AssertUnwindSafe(|| target(bytes))) {
-        Ok(Outcome::Refused(message)) if message.trim().is_empty() => Some("refused without a word".to_owned()),
+        Ok(Outcome::Refused(message)) if message.trim().is_empty() => {
+            Some("refused without a word".to_owned())
+        }
         Ok(Outcome::Refused(_)) => {
             tally.refused += 1;
             None
@@ -70,12 +74,18 @@ fn try_one(name: &str, target: Target, bytes: &[u8], tally: &mut Tally) {
 /// The own files as they are, and `inputs` damaged ones.
 fn fuzz(name: &str, inputs: u64) {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    let (_, target) = TARGETS.into_iter().find(|(known, _)| *known == name).expect("a target");
+    let (_, target) = TARGETS
+        .into_iter()
+        .find(|(known, _)| *known == name)
+        .expect("a target");
     let corpus = corpus(name);
     let mut tally = Tally::default();
     for (file, bytes) in &corpus {
         let outcome = target(bytes);
-        assert!(matches!(outcome, Outcome::Read(parts) if parts > 0), "{file}: {outcome:?}");
+        assert!(
+            matches!(outcome, Outcome::Read(parts) if parts > 0),
+            "{file}: {outcome:?}"
+        );
     }
     let mut mutator = Mutator::new(setting("CORRIDOR_FUZZ_SEED", 1));
     for _ in 0..inputs * setting("CORRIDOR_FUZZ_INPUTS", 1) {
@@ -87,10 +97,19 @@ fn fuzz(name: &str, inputs: u64) {
             break;
         }
     }
-    let Tally { read, refused, faults, worst } = tally;
-    tell(&format!("{name}: {read} read, {refused} refused; at most {} MB and {:?}", worst.0 >> 20, worst.1));
+    let Tally {
+        read,
+        refused,
+        faults,
+        worst,
+    } = tally;
+    tell(&format!(
+        "{name}: {read} read, {refused} refused; at most {} MB and {:?}",
+        worst.0 >> 20,
+        worst.1
+    ));
     assert!(faults.is_empty(), "{name}: {faults:#?}");
-    let (low, all) = (inputs / 20, read + refused);
+    let (low, all) = (inputs / 50, read + refused);
     assert!(
         read as u64 > low && refused as u64 > low,
         "{name}: the damage is too light or too heavy: {read} of {all} were read"
@@ -105,47 +124,47 @@ fn tell(what: &str) {
 
 #[test]
 fn opendrive() {
-    fuzz("opendrive", 600);
+    fuzz("opendrive", 2500);
 }
 
 #[test]
 fn lanelet2() {
-    fuzz("lanelet2", 800);
+    fuzz("lanelet2", 2500);
 }
 
 #[test]
 fn commonroad() {
-    fuzz("commonroad", 800);
+    fuzz("commonroad", 1500);
 }
 
 #[test]
 fn apollo_binary() {
-    fuzz("apollo_binary", 1500);
+    fuzz("apollo_binary", 6000);
 }
 
 #[test]
 fn apollo_text() {
-    fuzz("apollo_text", 1500);
+    fuzz("apollo_text", 6000);
 }
 
 #[test]
 fn apollo_routing() {
-    fuzz("apollo_routing", 3000);
+    fuzz("apollo_routing", 6000);
 }
 
 #[test]
 fn scenario() {
-    fuzz("scenario", 600);
+    fuzz("scenario", 1500);
 }
 
 #[test]
 fn trace() {
-    fuzz("trace", 300);
+    fuzz("trace", 1500);
 }
 
 #[test]
 fn trace_lines() {
-    fuzz("trace_lines", 300);
+    fuzz("trace_lines", 1500);
 }
 
 /// The same seed makes the same inputs; without that a fault could not be found again.
@@ -159,7 +178,7 @@ fn damage_is_repeatable_and_of_many_kinds() {
     };
     let mut all = inputs(5);
     assert_eq!(all, inputs(5));
-    assert!(all.iter().any(|bytes| bytes.len() > 20 * original.len()) && all.iter().any(|b| b.len() < 20));
+    assert!(all.iter().any(|bytes| bytes.len() > 3 * original.len()) && all.iter().any(|b| b.len() < 20));
     all.sort();
     all.dedup();
     assert!(all.len() > 190, "{} different ones of 200", all.len());

@@ -10,13 +10,40 @@ use std::ops::Range;
 
 /// Numbers that are none, are too large, or sit where a sign, a digit or a bit runs out.
 const EXTREMES: [&str; 20] = [
-    "nan", "inf", "-inf", "1e308", "-1e308", "1e-308", "0", "-0", "-1", "1", "0.0001", "1e5", "99999", "1e9",
-    "2147483648", "4294967296", "-9223372036854775809", "18446744073709551616", "1e30", "0x10",
+    "nan",
+    "inf",
+    "-inf",
+    "1e308",
+    "-1e308",
+    "1e-308",
+    "0",
+    "-0",
+    "-1",
+    "1",
+    "0.0001",
+    "1e5",
+    "99999",
+    "1e9",
+    "2147483648",
+    "4294967296",
+    "-9223372036854775809",
+    "18446744073709551616",
+    "1e30",
+    "0x10",
 ];
 
 /// Words that mean something to some format.
 const WORDS: [&str; 10] = [
-    "left", "right", "driving", "true", "\"\"", "<a/>", "{}", "[]", "#", "\u{e9}\u{0}",
+    "left",
+    "right",
+    "driving",
+    "true",
+    "\"\"",
+    "<a/>",
+    "{}",
+    "[]",
+    "#",
+    "\u{e9}\u{0}",
 ];
 
 /// How deep elements are put into each other: a little, deeper than a limit for people, and deeper than a stack.
@@ -50,14 +77,11 @@ impl Mutator {
         &of[self.below(of.len())]
     }
 
-    /// `original` with one to four kinds of damage; `other` lends pieces.
+    /// `original` damaged once, as often as not once more, and so on; `other` lends pieces.
     pub(crate) fn damaged(&mut self, original: &[u8], other: &[u8]) -> Vec<u8> {
-        let mut bytes = original.to_vec();
-        for _ in 0..=self.below(4) {
+        let mut bytes = self.once(original.to_vec(), other);
+        while self.below(2) == 0 && bytes.len() <= GROWTH.0 * original.len() + GROWTH.1 {
             bytes = self.once(bytes, other);
-            if bytes.len() > GROWTH.0 * original.len() + GROWTH.1 {
-                break;
-            }
         }
         bytes
     }
@@ -67,7 +91,7 @@ impl Mutator {
             return other[..self.below(other.len())].to_vec();
         }
         let at = self.below(bytes.len());
-        match self.below(16) {
+        match self.below(20) {
             0 => bytes[at] ^= 1 << self.below(8),
             1 => bytes[at] = u8::try_from(self.below(256)).expect("is below 256"),
             2 => bytes.truncate(at),
@@ -83,14 +107,19 @@ impl Mutator {
                 let range = run(&bytes, at, is_of_word);
                 replace(&mut bytes, range, word.as_bytes());
             }
-            10 => self.replace_double(&mut bytes, at),
-            11 | 12 => {
+            10..=12 => self.replace_double(&mut bytes, at),
+            13 | 14 => {
+                let digit = bytes[at..].iter_mut().find(|byte| byte.is_ascii_digit());
+                let other = b"0123456789.-"[self.below(12)];
+                digit.into_iter().for_each(|digit| *digit = other);
+            }
+            15 | 16 => {
                 let range = element(&bytes, at);
                 let copies = bytes[range.clone()].repeat(*self.pick(&COPIES));
                 bytes.splice(range.end..range.end, copies);
             }
-            13 => self.nest(&mut bytes, at),
-            14 => {
+            17 => self.nest(&mut bytes, at),
+            18 => {
                 let range = element(&bytes, at);
                 replace(&mut bytes, range, b"");
             }
@@ -111,8 +140,13 @@ impl Mutator {
         replace(bytes, to, &word);
     }
 
-    /// Another number behind the next tag of an eight-byte field of a binary message.
-    fn replace_double(&mut self, bytes: &mut [u8], at: usize) {
+    /// Another number behind the next tag of an eight-byte field of a binary message; in a text, another number.
+    fn replace_double(&mut self, bytes: &mut Vec<u8>, at: usize) {
+        if std::str::from_utf8(bytes).is_ok() {
+            let number = *self.pick(&EXTREMES);
+            let range = run(bytes, at, is_of_number);
+            return replace(bytes, range, number.as_bytes());
+        }
         let value: f64 = self.pick(&EXTREMES).parse().unwrap_or(f64::MAX);
         let tag = bytes[at..].iter().position(|byte| byte & 7 == 1 && *byte > 7);
         let start = tag.map_or(at, |tag| at + tag + 1);
@@ -172,7 +206,9 @@ fn element(bytes: &[u8], at: usize) -> Range<usize> {
     match bytes[open] {
         b'<' => open..open + end_of_tag(rest),
         b'{' | b'[' => {
-            let named = bytes[..open].iter().rposition(|byte| matches!(byte, b'\n' | b'{' | b'}' | b','));
+            let named = bytes[..open]
+                .iter()
+                .rposition(|byte| matches!(byte, b'\n' | b'{' | b'}' | b','));
             named.map_or(0, |before| before + 1)..open + end_of_braces(rest)
         }
         _ => {
@@ -184,7 +220,10 @@ fn element(bytes: &[u8], at: usize) -> Range<usize> {
 
 /// Length of the tag at the beginning with what is in it.
 fn end_of_tag(text: &[u8]) -> usize {
-    let head = text.iter().position(|byte| *byte == b'>').map_or(text.len(), |end| end + 1);
+    let head = text
+        .iter()
+        .position(|byte| *byte == b'>')
+        .map_or(text.len(), |end| end + 1);
     if text[..head].ends_with(b"/>") || !text.get(1).is_some_and(u8::is_ascii_alphabetic) {
         return head;
     }

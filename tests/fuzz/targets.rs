@@ -136,12 +136,18 @@ fn scenario(bytes: &[u8]) -> Outcome {
     let read = Family::parse_with(&text, "fuzz.toml", Path::new(""), maps);
     outcome(read, |family| {
         let draw = |seed: u64| family.draw(seed).map_err(|error| error.to_string());
-        [0, 1, u64::MAX].map(draw).iter().filter(|drawn| drawn.is_ok()).count()
+        [0, 1, u64::MAX]
+            .map(draw)
+            .iter()
+            .filter(|drawn| drawn.is_ok())
+            .count()
     })
 }
 
 fn trace(bytes: &[u8]) -> Outcome {
-    outcome(Trace::from_bytes(bytes, Path::new("fuzz.trace")), |trace| told(&trace))
+    outcome(Trace::from_bytes(bytes, Path::new("fuzz.trace")), |trace| {
+        told(&trace)
+    })
 }
 
 /// The lines inside a trace: damage to compressed bytes never gets as far.
@@ -185,8 +191,15 @@ fn asked(map: &RoadMap) -> usize {
 /// Routes from the first lane to the last ones, and a drive along each.
 fn find_a_way(map: &RoadMap) {
     let graph = LaneGraph::new(map, RoutingConfig::default());
-    let on = |lane: u32, s: f64| WayPoint::OnLane(Position { lane: LaneId(lane), s });
-    let drivable = (0_u32..).zip(map.lanes()).filter(|(_, lane)| lane.kind.is_drivable());
+    let on = |lane: u32, s: f64| {
+        WayPoint::OnLane(Position {
+            lane: LaneId(lane),
+            s,
+        })
+    };
+    let drivable = (0_u32..)
+        .zip(map.lanes())
+        .filter(|(_, lane)| lane.kind.is_drivable());
     let lanes: Vec<u32> = drivable.map(|(id, _)| id).collect();
     let hd_map = HdMap::of_roads(map).map(Arc::new);
     for to in lanes.iter().rev().take(ASKED) {
