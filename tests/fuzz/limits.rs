@@ -9,7 +9,7 @@ use std::time::Duration;
 
 /// Most memory that any input may take, bytes: 5 million cross-sections, up to which importers go, with the index
 /// over them. The smallest file may ask for that many: a road of 100 km is one line.
-const MEMORY: u64 = 3 << 30;
+const MEMORY: u64 = 2 << 30;
 
 /// Memory for every byte of a file beyond that: trees of XML and text take some dozens.
 const MEMORY_PER_BYTE: u64 = 200;
