@@ -39,6 +39,16 @@ fn projection(c: &mut Criterion) {
                     .sum::<f64>()
             });
         });
+        // From where a car of 12 m/s was a planning period ago.
+        let hinted: Vec<(Vec2, f64)> = points.iter().map(|p| (*p, line.to_frenet(*p).s - 1.2)).collect();
+        group.bench_function(format!("to_frenet_near/{name}"), |b| {
+            b.iter(|| {
+                hinted
+                    .iter()
+                    .map(|(p, s)| black_box(&line).to_frenet_near(*p, *s).l)
+                    .sum::<f64>()
+            });
+        });
     }
     group.bench_function("point", |b| {
         let stations = (0..POINTS).map(|k| LENGTH * f64::from(k) / f64::from(POINTS));

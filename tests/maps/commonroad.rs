@@ -1,6 +1,7 @@
 //! The reader of `CommonRoad` on files of the collection: what is in them, and every oddity they are known for.
 
-use crate::support::{assert_sound, map_file, named};
+use crate::sound::{DRAWN, assert_sound};
+use crate::support::{map_file, named};
 use corridor_decider::frame::{Command, ObstacleKind};
 use corridor_decider::geometry::{Vec2, angle};
 use corridor_decider::road::{BoundaryType, Lane, LaneKind, Neighbour, Side};
@@ -84,10 +85,7 @@ fn every_file_holds_what_is_known_of_it() {
 fn every_road_is_sound_and_every_scene_can_be_set_up() {
     for (name, ..) in FILES {
         let Some(read) = load(name) else { return };
-        if name != "test_reading_all" {
-            // That one has lanes of 2 m with a kink of 45 degrees.
-            assert_sound(&read.map);
-        }
+        assert_sound(&read.map, DRAWN);
         let (scenario, _) = scene(&read);
         let center = scenario.vehicle.center(scenario.ego.pose).position();
         let off = scenario.map.distance_off_road(center);

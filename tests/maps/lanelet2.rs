@@ -1,67 +1,32 @@
 //! The Lanelet2 files: the example map of the Lanelet2 project (Karlsruhe) and a vector map of Autoware.
 
-use crate::support::{assert_sound, count, map_file, named, successors, worst_joint};
+use crate::sound::{DRAWN, assert_sound};
+use crate::support::{count, map_file, named, successors, worst_joint};
 use corridor_decider::geometry::angle;
-use corridor_decider::road::{BoundaryType, Lane, LaneId, LaneKind, LanePoint, Neighbour, RoadMap, Side};
+use corridor_decider::road::{BoundaryType, Lane, LaneKind, LanePoint, RoadMap, Side};
 use corridor_scenarios::import::lanelet2::{self, Lanelet2Import};
 
 /// A map that passed the general checks.
 fn load(name: &str) -> Option<Lanelet2Import> {
     let file = map_file(&format!("lanelet2/{name}.osm"))?;
     let import = lanelet2::read_file(&file).unwrap_or_else(|error| panic!("{error}"));
-    assert_sound(&import.map);
+    assert_sound(&import.map, DRAWN);
     assert_consistent(&import.map);
     Some(import)
 }
 
-/// What must hold for every map of lanelets: neighbours know each other, lanes that follow each other meet with one
-/// heading and curvature, headings are those of the line, and nothing has a negative width.
+/// What a map of lanelets promises beyond [`assert_sound`]: lanes that follow each other meet exactly, with one
+/// curvature.
 fn assert_consistent(map: &RoadMap) {
-    for (number, lane) in (0u32..).zip(map.lanes()) {
-        for kind in Neighbour::ALL {
-            let side = if kind.reverse {
-                kind.side
-            } else {
-                kind.side.opposite()
-            };
-            let back = Neighbour { side, ..kind };
-            let other = lane.neighbour(kind).map(|other| map.lane(other));
-            assert!(
-                other.is_none_or(|other| other.neighbour(back) == Some(LaneId(number))),
-                "{}",
-                lane.name
-            );
-        }
+    for lane in map.lanes() {
         for next in &lane.successors {
             let (end, start) = (lane.points[lane.points.len() - 1], map.lane(*next).points[0]);
             assert!((end.x - start.x).hypot(end.y - start.y) < 1e-9, "{}", lane.name);
-            assert!(
-                angle::difference(end.theta, start.theta).abs() < 1e-9,
-                "{}",
-                lane.name
-            );
+            let turn = angle::difference(end.theta, start.theta);
+            assert!(turn.abs() < 1e-9, "{}", lane.name);
             assert!((end.kappa - start.kappa).abs() < 1e-9, "{}", lane.name);
         }
-        for p in &lane.points {
-            assert!(p.left >= 0.0 && p.right >= 0.0 && p.road_left >= p.left && p.road_right >= p.right);
-        }
-        assert!(
-            worst_heading(lane) < 0.05,
-            "{}: {}",
-            lane.name,
-            worst_heading(lane)
-        );
     }
-}
-
-/// Largest difference between a chord and the mean heading of its ends, rad.
-fn worst_heading(lane: &Lane) -> f64 {
-    let off = |pair: &[LanePoint]| {
-        let chord = (pair[1].y - pair[0].y).atan2(pair[1].x - pair[0].x);
-        let mean = pair[0].theta + angle::difference(pair[1].theta, pair[0].theta) / 2.0;
-        angle::difference(chord, mean).abs()
-    };
-    lane.points.windows(2).map(off).fold(0.0, f64::max)
 }
 
 /// Speed limit in km/h.

@@ -8,4 +8,5 @@ mod apollo;
 mod commonroad;
 mod lanelet2;
 mod opendrive;
+mod sound;
 mod support;

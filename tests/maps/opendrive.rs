@@ -1,8 +1,7 @@
 //! The `OpenDRIVE` files: esmini's test roads, an ASAM example, and CARLA's Town07.
 
-use crate::support::{
-    assert_sound, count, first, line, map_file, named, sections, successors, width, worst_joint,
-};
+use crate::sound::{GIVEN, assert_sound};
+use crate::support::{count, first, line, map_file, named, sections, successors, width, worst_joint};
 use corridor_decider::geometry::{Vec2, angle};
 use corridor_decider::reference_line::LineQuery;
 use corridor_decider::road::{BoundaryType, LaneKind, Neighbour, RoadMap, Side};
@@ -25,7 +24,7 @@ const RIGHT_FORWARD: Neighbour = Neighbour {
 /// A map that passed the general checks, and its warnings.
 fn load(name: &str) -> Option<(RoadMap, Vec<String>)> {
     let import = import(name)?;
-    assert_sound(&import.map);
+    assert_sound(&import.map, GIVEN);
     Some((import.map, import.warnings))
 }
 

@@ -1,7 +1,7 @@
 //! Finding the maps, and questions that every map is asked.
 
 use corridor_decider::geometry::angle;
-use corridor_decider::reference_line::{LineError, ReferenceLine};
+use corridor_decider::reference_line::ReferenceLine;
 use corridor_decider::road::{Lane, LaneId, LaneKind, RoadMap};
 use std::path::{Path, PathBuf};
 
@@ -106,41 +106,4 @@ pub(crate) fn worst_joint(map: &RoadMap) -> (f64, f64) {
         }
     }
     worst
-}
-
-/// What must hold for every map: links are mutual, lanes are as finely sampled as promised, and every drivable
-/// lane can be followed into each of its successors.
-pub(crate) fn assert_sound(map: &RoadMap) {
-    for (number, lane) in (0u32..).zip(map.lanes()) {
-        let id = LaneId(number);
-        for next in &lane.successors {
-            assert!(
-                map.lane(*next).predecessors.contains(&id),
-                "{} is not known behind",
-                lane.name
-            );
-            if lane.kind.is_drivable() && map.lane(*next).kind.is_drivable() {
-                // Two dust lanes in a row meet, but are too short for a line.
-                let followed = ReferenceLine::along(map, &[id, *next]);
-                assert!(
-                    matches!(followed, Ok(_) | Err(LineError::TooShort { .. })),
-                    "{}: {followed:?}",
-                    lane.name
-                );
-            }
-        }
-        for pair in lane.points.windows(2) {
-            let (step, width) = (pair[1].s - pair[0].s, pair[0].left + pair[0].right);
-            // Outer lanes of a bend are sampled as often as its middle.
-            assert!(
-                step < 0.5 + 0.05 * 20.0 + width,
-                "lane {}: a step of {step}",
-                lane.name
-            );
-            assert!(
-                pair.iter()
-                    .all(|p| p.road_left >= p.left - 1e-9 && p.road_right >= p.right - 1e-9)
-            );
-        }
-    }
 }

@@ -16,6 +16,9 @@ const ARRIVED: f64 = 1e-9;
 /// A foot farther away than that on the chord by this much is not the nearest point, m.
 const RUN_AWAY: f64 = 1e-3;
 
+/// How far from a hint a foot may lie, m: what a car at 80 m/s drives in a planning period.
+const WINDOW: f64 = 8.0;
+
 /// Least factor `1 − κ l` that is divided by: nearer to the centre of curvature there is no single foot.
 const LEAST_STRETCH: f64 = 0.1;
 
@@ -142,8 +145,44 @@ impl Curve {
     /// Foot of the perpendicular from `point`: the chord it lies on and the fraction along it, beyond `[0, 1]` only
     /// at the curve's ends. Newton on (point − curve) · tangent = 0 from the foot on the nearest chord.
     pub(super) fn foot(&self, point: Vec2) -> (usize, f64) {
+        self.foot_from(self.nearest_chord(point), point)
+    }
+
+    /// The foot that one comes to downhill from the station `hint`, as [`Curve::foot`] gives it; `None` where that
+    /// leads more than [`WINDOW`] away from the hint.
+    pub(super) fn foot_near(&self, point: Vec2, hint: f64) -> Option<(usize, f64)> {
+        let k = self.downhill(self.locate(hint).0, point, hint);
+        let (k, t) = self.foot_from(k, point);
+        let s = self.knots[k].s + t * (self.knots[k + 1].s - self.knots[k].s);
+        ((s - hint).abs() <= WINDOW).then_some((k, t))
+    }
+
+    /// The chord to which one comes from chord `k` by going on to a nearer one as long as there is one in the window;
+    /// the first of equals.
+    fn downhill(&self, mut k: usize, point: Vec2, hint: f64) -> usize {
         let last = self.knots.len() - 2;
-        let mut k = self.nearest_chord(point);
+        let start = k;
+        let mut here = self.chord_distance_squared(k, point);
+        while k < last && self.knots[k + 1].s - hint <= WINDOW {
+            let there = self.chord_distance_squared(k + 1, point);
+            if there >= here || there.is_nan() {
+                break;
+            }
+            (k, here) = (k + 1, there);
+        }
+        while k <= start && k > 0 && hint - self.knots[k].s <= WINDOW {
+            let there = self.chord_distance_squared(k - 1, point);
+            if there > here || there.is_nan() {
+                break;
+            }
+            (k, here) = (k - 1, there);
+        }
+        k
+    }
+
+    /// The foot by Newton's method from the foot on chord `k`.
+    fn foot_from(&self, mut k: usize, point: Vec2) -> (usize, f64) {
+        let last = self.knots.len() - 2;
         let mut t = self.chord_fraction(k, point);
         let on_chord = (k, t);
         for _ in 0..FOOT_STEPS {

@@ -207,6 +207,22 @@ impl ReferenceLine {
         }
     }
 
+    /// Frenet coordinates of a point whose foot is at fraction `t` of the chord behind sample `k`.
+    fn frenet_at(&self, (k, t): (usize, f64), point: Vec2) -> SlPoint {
+        if (k == 0 && t < 0.0) || (k + 2 == self.samples.len() && t > 1.0) {
+            return beyond_the_end(&self.samples[if t < 0.0 { 0 } else { k + 1 }], point);
+        }
+        let t = t.clamp(0.0, 1.0);
+        let at = self.curve.between(k, t);
+        let (sin, cos) = angle::sin_cos(at.theta);
+        let d = Vec2::new(point.x - at.x, point.y - at.y);
+        let (a, b) = (&self.samples[k], &self.samples[k + 1]);
+        SlPoint {
+            s: a.s + t * (b.s - a.s),
+            l: cross(Vec2::new(cos, sin), d),
+        }
+    }
+
     fn inside(&self, s: f64) -> bool {
         s >= self.start() && s <= self.length()
     }
@@ -294,19 +310,15 @@ impl LineQuery for ReferenceLine {
     }
 
     fn to_frenet(&self, point: Vec2) -> SlPoint {
-        let (k, t) = self.curve.foot(point);
-        if (k == 0 && t < 0.0) || (k + 2 == self.samples.len() && t > 1.0) {
-            return beyond_the_end(&self.samples[if t < 0.0 { 0 } else { k + 1 }], point);
-        }
-        let t = t.clamp(0.0, 1.0);
-        let at = self.curve.between(k, t);
-        let (sin, cos) = angle::sin_cos(at.theta);
-        let d = Vec2::new(point.x - at.x, point.y - at.y);
-        let (a, b) = (&self.samples[k], &self.samples[k + 1]);
-        SlPoint {
-            s: a.s + t * (b.s - a.s),
-            l: cross(Vec2::new(cos, sin), d),
-        }
+        self.frenet_at(self.curve.foot(point), point)
+    }
+
+    /// Looks up to 8 m along the line to both sides of `s_hint`. Where the point lies nearer to all of that stretch than
+    /// the centres of its bends, the stretch has one foot, and that is found; where it is the nearest place of the
+    /// whole line the answer is that of [`LineQuery::to_frenet`], bit for bit.
+    fn to_frenet_near(&self, point: Vec2, s_hint: f64) -> SlPoint {
+        let near = self.curve.foot_near(point, s_hint);
+        self.frenet_at(near.unwrap_or_else(|| self.curve.foot(point)), point)
     }
 }
 

@@ -56,6 +56,13 @@ pub trait LineQuery {
     /// Frenet coordinates of a point. Beyond an end the end tangent goes on: `s < 0` or `s > length`.
     fn to_frenet(&self, point: Vec2) -> SlPoint;
 
+    /// Frenet coordinates of a point whose station was about `s_hint` before: where the line comes past twice, those of
+    /// the pass near the hint. Lines that know no faster way search all of it.
+    fn to_frenet_near(&self, point: Vec2, s_hint: f64) -> SlPoint {
+        let _ = s_hint;
+        self.to_frenet(point)
+    }
+
     /// Cross-sections at `from`, `from + step`, … while below `end`; stations add up one by one.
     fn sample(&self, from: f64, step: f64, end: f64, stations: &mut Vec<Station>) {
         let mut s = from;

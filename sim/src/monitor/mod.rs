@@ -60,6 +60,8 @@ pub struct Monitor {
     plan: Option<Plan>,
     now: f64,
     samples: u32,
+    /// Where along the scenario's line the ego was at the last sample, m.
+    station: Option<f64>,
     history: avoidance::History,
     collision: collision::CollisionJudge,
     road: road::RoadWatch,
@@ -87,6 +89,7 @@ impl Monitor {
             plan: None,
             now: 0.0,
             samples: 0,
+            station: None,
             history: avoidance::History::default(),
             collision: collision::CollisionJudge::default(),
             road: road::RoadWatch::default(),
@@ -162,10 +165,17 @@ impl Monitor {
     }
 
     fn sample(&mut self, view: &StepView) {
+        let (line, position) = (&self.scenario.line, view.ego.pose.position());
+        // Where a route crosses itself the ego is on the pass on which it was.
+        let at = self.station.map_or_else(
+            || line.to_frenet(position),
+            |before| line.to_frenet_near(position, before),
+        );
+        self.station = Some(at.s);
         let sample = Sample {
             view: *view,
             scenario: &self.scenario,
-            at: self.scenario.line.to_frenet(view.ego.pose.position()),
+            at,
             plan: self.plan.as_ref(),
         };
         self.history.sample(&sample);

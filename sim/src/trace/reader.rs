@@ -48,6 +48,14 @@ impl Trace {
         Self::read(BufReader::new(file), path, MAX_BYTES)
     }
 
+    /// Reads a trace that is in memory; `name` is for messages only.
+    ///
+    /// # Errors
+    /// As [`Trace::open`].
+    pub fn from_bytes(bytes: &[u8], name: &Path) -> Result<Self, TraceError> {
+        Self::read(bytes, name, MAX_BYTES)
+    }
+
     /// Reads a trace of at most `limit` bytes; `path` is for messages only.
     pub(super) fn read(mut file: impl BufRead, path: &Path, limit: u64) -> Result<Self, TraceError> {
         let mut lines = Lines::new(&mut file, path, limit)?;

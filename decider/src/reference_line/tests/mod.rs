@@ -2,3 +2,4 @@
 
 mod along;
 mod projection;
+mod warm;
