@@ -77,7 +77,7 @@ fn a_wrong_map_names_scenario_and_map() {
     let not_a_number = MAP.replacen("length=\"", "length=\"NaN\" was=\"", 1);
     let cases: [(&[u8], &[&str]); 5] = [
         (b"", &["not well-formed XML"]),
-        (&GARBAGE, &["UTF-8"]),
+        (&GARBAGE, &["byte 0: ", "Apollo"]),
         (&MAP.as_bytes()[..MAP.len() / 2], &["not well-formed XML"]),
         (b"<html></html>", &["OpenDRIVE"]),
         (

@@ -28,10 +28,10 @@ pub(super) fn legend(kinds: &[(LaneKind, &str)], paper: &Paper) -> String {
     let row = line + 1.8 * letter;
     for (kind, _) in kinds.iter().rev() {
         let name = kind_name(*kind);
-        let _ = write!(
+        let _ = writeln!(
             legend,
             "<rect class=\"{name}\" x=\"{x:.0}\" y=\"{top:.0}\" width=\"{letter:.0}\" height=\"{letter:.0}\"/>\
-             <text x=\"{text:.0}\" y=\"{row:.0}\" font-size=\"{letter:.0}\">{name}</text>\n",
+             <text x=\"{text:.0}\" y=\"{row:.0}\" font-size=\"{letter:.0}\">{name}</text>",
             top = row - 0.85 * letter,
             text = x + 1.3 * letter,
         );
