@@ -67,7 +67,7 @@ impl Road {
         let (line, goal_s) =
             ReferenceLine::through(&map, &response, BEYOND_DESTINATION).map_err(|error| error.to_string())?;
         let hd_map = HdMap::of_roads(&map).map_err(|error| error.to_string())?;
-        let lanes = response.roads.iter().flat_map(|road| road.passages.last());
+        let lanes = response.roads.iter().filter_map(|road| road.passages.last());
         let route = lanes.flat_map(|passage| &passage.segments);
         Ok(Self {
             route: route.filter_map(|segment| map.find(&segment.lane)).collect(),

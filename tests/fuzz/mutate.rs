@@ -111,7 +111,9 @@ impl Mutator {
             13 | 14 => {
                 let digit = bytes[at..].iter_mut().find(|byte| byte.is_ascii_digit());
                 let other = b"0123456789.-"[self.below(12)];
-                digit.into_iter().for_each(|digit| *digit = other);
+                if let Some(digit) = digit {
+                    *digit = other;
+                }
             }
             15 | 16 => {
                 let range = element(&bytes, at);

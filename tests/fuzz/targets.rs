@@ -16,6 +16,9 @@ use corridor_sim::{explain, view};
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
+/// Maps that scenarios name, read once.
+static MAPS: LazyLock<MapCache> = LazyLock::new(MapCache::new);
+
 /// Lanes of a map that are asked and driven along: enough to meet every kind of lane in a small file.
 const ASKED: usize = 12;
 
@@ -126,7 +129,6 @@ fn apollo_routing(bytes: &[u8]) -> Outcome {
 fn scenario(bytes: &[u8]) -> Outcome {
     // Every map that is named is there: what a file system holds is no matter of the format.
     let street = include_str!("../../scenarios/maps/urban_parking.xodr");
-    static MAPS: LazyLock<MapCache> = LazyLock::new(MapCache::new);
     let text = String::from_utf8_lossy(bytes);
     let maps = if text.contains('/') {
         &MapCache::holding(street).expect("an own map")

@@ -55,7 +55,8 @@ pub struct CommonRoad {
 
 /// Whether a text is meant to be a CommonRoad file: its first element is the format's root.
 pub fn is_commonroad(text: &str) -> bool {
-    root_element(text) == Some(read::ROOT)
+    let starts = text.trim_start_matches('\u{feff}').trim_start();
+    starts.starts_with('<') && root_element(starts) == Some(read::ROOT)
 }
 
 /// Reads the text of a CommonRoad file.
