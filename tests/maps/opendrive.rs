@@ -444,6 +444,6 @@ fn the_place_on_the_earth_is_kept() {
     let Some(import) = import("straight_500m") else {
         return;
     };
-    let text = import.geo_reference.unwrap();
+    let text = import.geo_reference.unwrap_or_default();
     assert!(text.starts_with("+proj=utm"), "{text}");
 }
