@@ -20,6 +20,9 @@ const FILE: &str = "opendrive/carla_Town07_libOpenDRIVE_test.xodr";
 const SPEED: f64 = 10.0;
 const WAY_PER_TICK: f64 = 1.0;
 
+/// Ticks of the drive along which lines are provided: six seconds, in which they begin and grow.
+const DRIVEN: usize = 60;
+
 /// Length of the stitched line before it grows, and of what it grows by, m: what the provider asks for.
 const LINE: (f64, f64) = (200.0, 50.0);
 
@@ -142,7 +145,7 @@ fn first(chain: &[LaneSegment], length: f64) -> Vec<LaneSegment> {
 
 fn follow(c: &mut Criterion, town: &Town) {
     let drive = town.drive();
-    assert!(drive.len() > 50, "the way ends after {} ticks", drive.len());
+    assert!(drive.len() >= DRIVEN, "the way ends after {} ticks", drive.len());
     let mut group = c.benchmark_group("town07");
     group.throughput(Throughput::Elements(drive.len() as u64));
     group.bench_function("route_segments", |b| {
@@ -157,11 +160,15 @@ fn follow(c: &mut Criterion, town: &Town) {
             criterion::BatchSize::SmallInput,
         );
     });
+    let start = &drive[..DRIVEN];
+    group
+        .sample_size(10)
+        .throughput(Throughput::Elements(DRIVEN as u64));
     group.bench_function("provider_lines", |b| {
         b.iter_batched_ref(
             || town.provider(),
             |provider| {
-                drive
+                start
                     .iter()
                     .filter(|state| black_box(provider.lines(state)).is_ok())
                     .count()

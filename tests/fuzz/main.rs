@@ -129,12 +129,12 @@ fn opendrive() {
 
 #[test]
 fn lanelet2() {
-    fuzz("lanelet2", 2500);
+    fuzz("lanelet2", 1200);
 }
 
 #[test]
 fn commonroad() {
-    fuzz("commonroad", 1500);
+    fuzz("commonroad", 800);
 }
 
 #[test]
