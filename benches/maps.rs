@@ -124,7 +124,7 @@ impl Town {
 
     fn provider(&self) -> LineProvider {
         let (map, hd_map) = (Arc::clone(&self.map), Arc::clone(&self.hd_map));
-        LineProvider::new(map, hd_map, self.route.clone(), VehicleParams::default()).expect("an own route")
+        LineProvider::new(map, hd_map, self.route.clone()).expect("an own route")
     }
 }
 

@@ -95,7 +95,7 @@ fn scenario(obstacles: u32) -> Scenario {
         seed: 0,
         map,
         route: vec![LaneId(0)],
-        routing: None,
+        provider: None,
         target_line: None,
         ego: EgoStart {
             pose: Pose::new(10.0, 0.0, 0.0),

@@ -225,7 +225,11 @@ impl Template {
             seed,
             map: Arc::clone(&self.road.map),
             route: self.road.route.clone(),
-            routing: self.road.routing.clone(),
+            provider: self
+                .road
+                .provider
+                .clone()
+                .map(|provider| provider.with_vehicle(draft.vehicle)),
             line: Arc::clone(&self.road.line),
             target_line: self.road.target_line.clone(),
             ego: draft.ego,

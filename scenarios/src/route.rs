@@ -1,9 +1,8 @@
 //! The lanes to follow, and the lines along them and beside them.
 
-use crate::scenario::Routing;
 use corridor_decider::geometry::angle;
 use corridor_decider::hd_map::HdMap;
-use corridor_decider::reference_line::{LineError, ReferenceLine};
+use corridor_decider::reference_line::{LineError, LineProvider, ReferenceLine};
 use corridor_decider::road::{LaneId, Neighbour, RoadMap, Side};
 use corridor_decider::routing::RoutingResponse;
 use std::collections::BTreeMap;
@@ -22,7 +21,7 @@ pub(crate) struct Road {
     pub(crate) route: Vec<LaneId>,
     pub(crate) line: Arc<ReferenceLine>,
     pub(crate) target_line: Option<Arc<ReferenceLine>>,
-    pub(crate) routing: Option<Routing>,
+    pub(crate) provider: Option<LineProvider>,
     /// Station of the destination on the line, m.
     pub(crate) goal_s: Option<f64>,
     /// Length that other lines should have, m.
@@ -52,7 +51,7 @@ impl Road {
             route,
             line,
             target_line,
-            routing: None,
+            provider: None,
             goal_s: None,
             reach,
             others: Mutex::new(BTreeMap::new()),
@@ -69,15 +68,15 @@ impl Road {
         let hd_map = HdMap::of_roads(&map).map_err(|error| error.to_string())?;
         let lanes = response.roads.iter().filter_map(|road| road.passages.last());
         let route = lanes.flat_map(|passage| &passage.segments);
+        let route = route.filter_map(|segment| map.find(&segment.lane)).collect();
+        let provider = LineProvider::new(Arc::clone(&map), Arc::new(hd_map), response)
+            .map_err(|error| error.to_string())?;
         Ok(Self {
-            route: route.filter_map(|segment| map.find(&segment.lane)).collect(),
+            route,
             map,
             line: Arc::new(line),
             target_line: None,
-            routing: Some(Routing {
-                response: Arc::new(response),
-                hd_map: Arc::new(hd_map),
-            }),
+            provider: Some(provider),
             goal_s: Some(goal_s),
             reach,
             others: Mutex::new(BTreeMap::new()),

@@ -3,10 +3,8 @@
 use crate::goal::GoalRegion;
 use corridor_decider::frame::{Command, ObstacleId, ObstacleKind};
 use corridor_decider::geometry::{ConvexPolygon, Pose, Vec2};
-use corridor_decider::hd_map::HdMap;
-use corridor_decider::reference_line::ReferenceLine;
+use corridor_decider::reference_line::{LineProvider, ReferenceLine};
 use corridor_decider::road::{LaneId, RoadMap};
-use corridor_decider::routing::RoutingResponse;
 use corridor_decider::vehicle::VehicleParams;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -24,8 +22,8 @@ pub struct Scenario {
     pub map: Arc<RoadMap>,
     /// Lanes to follow, each a successor of the one before.
     pub route: Vec<LaneId>,
-    /// The answer of the router, where there is a destination: the decider's lines then come from it, tick by tick.
-    pub routing: Option<Routing>,
+    /// Follows the router's answer, where there is a destination: the decider's lines then come from it, tick by tick.
+    pub provider: Option<LineProvider>,
     /// The line along the route.
     pub line: Arc<ReferenceLine>,
     /// The line along the lanes to change to, for a lane-change command.
@@ -46,15 +44,6 @@ pub struct Scenario {
     pub timeout: f64,
     /// How it should end.
     pub expect: Expectation,
-}
-
-/// A route that is followed lane by lane.
-#[derive(Clone, Debug)]
-pub struct Routing {
-    /// What the router answered.
-    pub response: Arc<RoutingResponse>,
-    /// The lanes of the map as the lane-follow map sees them.
-    pub hd_map: Arc<HdMap>,
 }
 
 /// Where and how the ego starts.

@@ -144,9 +144,13 @@ impl ClosedLoop {
         self.digest.word(hash);
         let (lines, new_lines) = self.route.places(&frame.lines);
         TickRecord {
-            events: self
-                .story
-                .of(&frame, &decision, self.monitor.is_over(), self.world.hits()),
+            events: self.story.of(
+                &frame,
+                &decision,
+                self.route.lost(),
+                self.monitor.is_over(),
+                self.world.hits(),
+            ),
             ego: self.world.ego(),
             clearance: self.world.clearance(),
             hash: format!("{hash:016x}"),

@@ -2,7 +2,7 @@
 
 use corridor_decider::frame::{Command, EgoState, FrameLine};
 use corridor_decider::lane_follow_map::VehicleState;
-use corridor_decider::reference_line::{LineProvider, LineQuery, ReferenceLine};
+use corridor_decider::reference_line::{LineProvider, LineQuery, ProviderError, ReferenceLine, RouteLine};
 use corridor_scenarios::Scenario;
 use std::sync::Arc;
 
@@ -32,24 +32,19 @@ enum Guide {
         provider: Box<LineProvider>,
         /// Those of the last tick: an ego that has strayed off its route finds back along them.
         last: Vec<FrameLine>,
+        /// Why there are none for this tick.
+        lost: Option<ProviderError>,
     },
 }
 
 impl Route {
     pub(crate) fn new(scenario: &Scenario) -> Self {
-        let fixed: Vec<Arc<ReferenceLine>> = std::iter::once(&scenario.line)
-            .chain(&scenario.target_line)
-            .cloned()
-            .collect();
-        let provider = scenario.routing.as_ref().and_then(|routing| {
-            let (map, hd_map) = (Arc::clone(&scenario.map), Arc::clone(&routing.hd_map));
-            LineProvider::new(map, hd_map, (*routing.response).clone(), scenario.vehicle).ok()
-        });
-        let (guide, known) = match provider {
+        let (guide, known) = match &scenario.provider {
             Some(provider) => (
                 Guide::Routed {
-                    provider: Box::new(provider),
+                    provider: Box::new(provider.clone()),
                     last: Vec::new(),
+                    lost: None,
                 },
                 Vec::new(),
             ),
@@ -59,7 +54,10 @@ impl Route {
                     target: scenario.target_line.clone(),
                     changed: false,
                 },
-                fixed,
+                std::iter::once(&scenario.line)
+                    .chain(&scenario.target_line)
+                    .cloned()
+                    .collect(),
             ),
         };
         Self {
@@ -99,21 +97,29 @@ impl Route {
                 target,
                 changed,
             } => fixed(line, target.as_ref(), changed, ego, is_asked),
-            Guide::Routed { provider, last } => {
+            Guide::Routed { provider, last, lost } => {
                 let state = VehicleState {
                     position: ego.pose.position(),
                     heading: ego.pose.theta,
                     speed: ego.v,
                 };
-                if let Ok(lines) = provider.lines(&state) {
-                    let offered = lines.into_iter().map(|offered| FrameLine {
-                        is_change_lane: !offered.segments.is_on_segment,
-                        line: offered.line,
-                    });
-                    *last = offered.take(2).collect();
+                match provider.lines(&state) {
+                    Ok(lines) => {
+                        *lost = None;
+                        *last = lines.into_iter().take(2).map(offered).collect();
+                    }
+                    Err(error) => *lost = Some(error),
                 }
                 last.clone()
             }
+        }
+    }
+
+    /// Why the lines of this tick are those of an earlier one, if they are.
+    pub(crate) fn lost(&self) -> Option<&ProviderError> {
+        match &self.guide {
+            Guide::Routed { lost, .. } => lost.as_ref(),
+            Guide::Fixed { .. } => None,
         }
     }
 
@@ -130,6 +136,13 @@ impl Route {
             }
         }
         (places, self.known[known_before..].to_vec())
+    }
+}
+
+fn offered(line: RouteLine) -> FrameLine {
+    FrameLine {
+        is_change_lane: !line.segments.is_on_segment,
+        line: line.line,
     }
 }
 

@@ -5,6 +5,7 @@ use crate::trace::{Event, EventKind};
 use crate::verdict::Ending;
 use corridor_decider::decision::{Decision, Outcome, PullOverTarget};
 use corridor_decider::frame::{Frame, ObstacleId};
+use corridor_decider::reference_line::ProviderError;
 use corridor_scenarios::Scenario;
 
 /// A place to pull over that moves by more than this is another one, m.
@@ -17,6 +18,7 @@ pub(crate) struct Story {
     label: Option<String>,
     outcome: Outcome,
     target: Option<PullOverTarget>,
+    is_lost: bool,
     is_over: bool,
 }
 
@@ -31,6 +33,7 @@ impl Story {
             label: None,
             outcome: Outcome::Normal,
             target: None,
+            is_lost: false,
             is_over: false,
         }
     }
@@ -40,10 +43,18 @@ impl Story {
         &mut self,
         frame: &Frame,
         decision: &Decision,
+        lost: Option<&ProviderError>,
         ending: Option<Ending>,
         overlaps: impl Iterator<Item = ObstacleId>,
     ) -> Vec<Event> {
         let mut texts = Vec::new();
+        if let Some(error) = lost.filter(|_| !self.is_lost) {
+            texts.push((
+                EventKind::Note,
+                format!("the route gives no lines, the last ones serve on: {error}"),
+            ));
+        }
+        self.is_lost = lost.is_some();
         let label = decision
             .chosen
             .map(|place| decision.candidates[place].bound.label.to_string());

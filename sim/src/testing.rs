@@ -69,7 +69,7 @@ pub(crate) fn scenario(pose: Pose, speed: f64, behaviours: Vec<Behaviour>) -> Sc
         seed: 0,
         map,
         route: vec![LaneId(0)],
-        routing: None,
+        provider: None,
         line,
         target_line: None,
         ego: EgoStart { pose, speed },

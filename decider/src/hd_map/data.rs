@@ -81,36 +81,47 @@ pub struct LaneData {
 
 /// What a lane is for, in the original's classes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the names say it")]
 pub enum HdLaneKind {
+    /// Nothing known.
     #[default]
     None,
+    /// For cars.
     CityDriving,
+    /// For bicycles.
     Biking,
+    /// For pedestrians.
     Sidewalk,
+    /// To park in.
     Parking,
+    /// To stop on.
     Shoulder,
+    /// For cars and bicycles.
     Shared,
 }
 
 /// How a lane turns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the names say it")]
 pub enum Turn {
+    /// It follows its road.
     #[default]
     NoTurn,
+    /// To the left.
     LeftTurn,
+    /// To the right.
     RightTurn,
+    /// Back.
     UTurn,
 }
 
 /// In which direction of its points a lane is driven.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the names say it")]
 pub enum Direction {
+    /// In theirs.
     #[default]
     Forward,
+    /// Against theirs.
     Backward,
+    /// In both.
     Bidirection,
 }
 
@@ -140,12 +151,15 @@ pub struct RoadData {
 
 /// The class of a road.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the names say it")]
 pub enum RoadKind {
+    /// Nothing known.
     #[default]
     Unknown,
+    /// A motorway.
     Highway,
+    /// A street.
     CityRoad,
+    /// A road through a car park.
     Park,
 }
 
@@ -171,12 +185,15 @@ pub struct EdgeData {
 
 /// Which edge of the road's surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[allow(missing_docs, reason = "the names say it")]
 pub enum EdgeKind {
+    /// Nothing known.
     #[default]
     Unknown,
+    /// Neither side in particular.
     Normal,
+    /// The left one.
     Left,
+    /// The right one.
     Right,
 }
 
@@ -224,7 +241,6 @@ pub struct OverlapObject {
 
 /// What kind of thing overlaps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[allow(missing_docs, reason = "the names say it")]
 pub enum OverlapKind {
     /// A lane, over a stretch of it.
     Lane {
@@ -235,14 +251,24 @@ pub enum OverlapKind {
         /// Whether it merges with the other lane.
         is_merge: bool,
     },
+    /// A traffic light.
     Signal,
+    /// A stop sign.
     StopSign,
+    /// A crosswalk.
     Crosswalk,
+    /// A junction.
     Junction,
+    /// A yield sign.
     YieldSign,
+    /// An area to keep free.
     ClearArea,
+    /// A speed bump.
     SpeedBump,
+    /// A parking space.
     ParkingSpace,
+    /// A junction as planning sees it.
     PncJunction,
+    /// Something that no task asks for.
     Other,
 }

@@ -2,17 +2,26 @@
 
 /// What a map object is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[allow(missing_docs, reason = "the names say it")]
 pub enum ObjectKind {
+    /// Another lane.
     Lane,
+    /// A traffic light.
     Signal,
+    /// A yield sign.
     YieldSign,
+    /// A stop sign.
     StopSign,
+    /// A crosswalk.
     Crosswalk,
+    /// A junction.
     Junction,
+    /// A junction as planning sees it.
     PncJunction,
+    /// An area to keep free.
     ClearArea,
+    /// A speed bump.
     SpeedBump,
+    /// A parking space.
     ParkingSpace,
 }
 

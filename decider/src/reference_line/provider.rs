@@ -72,16 +72,21 @@ impl LineProvider {
         roads: Arc<RoadMap>,
         hd_map: Arc<HdMap>,
         route: RoutingResponse,
-        vehicle: VehicleParams,
     ) -> Result<Self, ProviderError> {
         let mut follow = LaneFollowMap::new(hd_map, LaneFollowConfig::default());
         follow.update_route(route)?;
         Ok(Self {
             roads,
             follow,
-            vehicle,
+            vehicle: VehicleParams::default(),
             lines: Vec::new(),
         })
+    }
+
+    /// The same for a given car: its lines keep it inside its lane.
+    #[must_use]
+    pub fn with_vehicle(self, vehicle: VehicleParams) -> Self {
+        Self { vehicle, ..self }
     }
 
     /// What is known of the route and the car on it.
@@ -165,7 +170,7 @@ mod tests {
             .route(&roads, &[at(0, 0.0), at(14, 90.0)], &BlackList::default())
             .unwrap();
         let hd_map = Arc::new(HdMap::of_roads(&roads).unwrap());
-        LineProvider::new(roads, hd_map, route, VehicleParams::default()).unwrap()
+        LineProvider::new(roads, hd_map, route).unwrap()
     }
 
     fn car(x: f64, y: f64) -> VehicleState {

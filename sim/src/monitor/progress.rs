@@ -43,7 +43,7 @@ impl ProgressWatch {
             wanted,
             is_goal: goal.is_some(),
             is_required: goal.is_some() && !scenario.expect.allows_standstill(),
-            reach: if scenario.routing.is_some() {
+            reach: if scenario.provider.is_some() {
                 LANE_REACH
             } else {
                 f64::MAX

@@ -69,13 +69,12 @@ fn leaves_road(scene: &Scene, table: &LineTable, points: &[PathPoint]) -> bool {
         (l + vehicle.half_width() - row.road.0).max(vehicle.half_width() - l - row.road.1)
     };
     let row = |k: usize| &table.rows[k.min(table.rows.len() - 1)];
+    let ahead = rows_in(vehicle.front_edge_to_center);
+    let behind = rows_in(vehicle.back_edge_to_center);
     let overhang = |(k, point): (usize, &PathPoint)| {
         let front = point.pose.advanced(vehicle.front_edge_to_center).position();
         let rear = point.pose.advanced(-vehicle.back_edge_to_center).position();
-        beyond(row(k + rows_in(vehicle.front_edge_to_center)), front).max(beyond(
-            row(k.saturating_sub(rows_in(vehicle.back_edge_to_center))),
-            rear,
-        ))
+        beyond(row(k + ahead), front).max(beyond(row(k.saturating_sub(behind)), rear))
     };
     let mut overhangs = points.iter().enumerate().map(overhang);
     let allowed = overhangs.next().unwrap_or(0.0).max(0.0) + ROAD_TOLERANCE;

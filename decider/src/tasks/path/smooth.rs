@@ -8,10 +8,8 @@
 use super::corridor::Corridor;
 use super::profile::Profile;
 use super::table::STEP;
+use crate::banded::{BAND, Row, cholesky_solve};
 use crate::decision::Rejection;
-
-/// Half bandwidth of the normal matrix: a third difference couples four offsets.
-const BAND: usize = 3;
 
 /// Stiffness of a limit relative to the weight of the offset: leaves overshoots of about a millimetre.
 const STIFFNESS: f64 = 1e6;
@@ -25,9 +23,6 @@ const FREE_STEPS: usize = 15;
 
 /// All Newton steps: a growing set ends by itself, this is only a bound on the time.
 const MAX_STEPS: usize = 60;
-
-/// One row of the lower triangle: the diagonal last.
-type Row = [f64; BAND + 1];
 
 /// Which limit a station presses against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,34 +127,6 @@ fn normal_equations(corridor: &Corridor, past: [f64; 3]) -> (Vec<Row>, Vec<f64>)
         }
     }
     (matrix, rhs)
-}
-
-/// Solves in place; the matrix is positive definite because every diagonal has the offset's weight.
-fn cholesky_solve(matrix: &mut [Row], rhs: &mut [f64]) {
-    let n = rhs.len();
-    for i in 0..n {
-        for j in i.saturating_sub(BAND)..=i {
-            let mut sum = matrix[i][BAND + j - i];
-            for k in i.saturating_sub(BAND).max(j.saturating_sub(BAND))..j {
-                sum -= matrix[i][BAND + k - i] * matrix[j][BAND + k - j];
-            }
-            matrix[i][BAND + j - i] = if i == j { sum.sqrt() } else { sum / matrix[j][BAND] };
-        }
-    }
-    for i in 0..n {
-        let mut sum = rhs[i];
-        for k in i.saturating_sub(BAND)..i {
-            sum -= matrix[i][BAND + k - i] * rhs[k];
-        }
-        rhs[i] = sum / matrix[i][BAND];
-    }
-    for i in (0..n).rev() {
-        let mut sum = rhs[i];
-        for k in i + 1..(i + 1 + BAND).min(n) {
-            sum -= matrix[k][BAND + i - k] * rhs[k];
-        }
-        rhs[i] = sum / matrix[i][BAND];
-    }
 }
 
 #[cfg(test)]

@@ -79,7 +79,7 @@ impl CommonRoad {
             map,
             route: road.route,
             line: road.line,
-            routing: None,
+            provider: None,
             target_line: None,
             ego: EgoStart { pose, speed },
             command: Command::Cruise,

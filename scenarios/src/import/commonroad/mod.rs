@@ -85,13 +85,7 @@ pub fn read(text: &str) -> Result<CommonRoad, ImportError> {
 /// # Errors
 /// [`ImportError::InFile`] with the file's name around what [`read`] or the file system says.
 pub fn read_file(path: &Path) -> Result<CommonRoad, ImportError> {
-    let bytes = std::fs::read(path).map_err(ImportError::Io);
-    bytes
-        .and_then(|bytes| read(&String::from_utf8_lossy(&bytes)))
-        .map_err(|error| ImportError::InFile {
-            file: path.display().to_string(),
-            error: Box::new(error),
-        })
+    super::read_file(path, read)
 }
 
 /// The scenario of one planning problem of a CommonRoad file, of the first one unless named, with warnings.

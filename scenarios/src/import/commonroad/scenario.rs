@@ -140,7 +140,7 @@ impl CommonRoad {
             map,
             command: road.change.map_or(Command::Cruise, Command::ChangeLane),
             route: road.route,
-            routing: None,
+            provider: None,
             line: road.line,
             target_line: road.target,
             ego,

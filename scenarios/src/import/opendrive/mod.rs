@@ -102,11 +102,5 @@ pub fn read_with(text: &str, settings: Settings) -> Result<OpenDriveImport, Impo
 /// # Errors
 /// [`ImportError::InFile`] with the file's name around what [`read`] or the file system says.
 pub fn read_file(path: &Path) -> Result<OpenDriveImport, ImportError> {
-    let bytes = std::fs::read(path).map_err(ImportError::Io);
-    bytes
-        .and_then(|bytes| read(&String::from_utf8_lossy(&bytes)))
-        .map_err(|error| ImportError::InFile {
-            file: path.display().to_string(),
-            error: Box::new(error),
-        })
+    super::read_file(path, read)
 }

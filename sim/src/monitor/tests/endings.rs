@@ -5,10 +5,14 @@ use crate::verdict::Ending;
 use corridor_decider::decision::{Decision, PullOverTarget, Stop, StopCause};
 use corridor_decider::frame::{Command, ObstacleId};
 use corridor_decider::geometry::{Pose, Vec2};
-use corridor_decider::road::Side;
+use corridor_decider::hd_map::HdMap;
+use corridor_decider::reference_line::LineProvider;
+use corridor_decider::road::{LaneId, Side};
+use corridor_decider::routing::{BlackList, LaneGraph, Position, RoutingConfig, WayPoint};
 use corridor_decider::tasks::path_bounds::Label;
 use corridor_scenarios::goal::{GoalArea, GoalRegion, GoalState};
 use corridor_scenarios::scenario::Expectation;
+use std::sync::Arc;
 
 fn pull_over_run(expect: Expectation) -> Run {
     let mut scenario = scenario(&[], expect);
@@ -74,6 +78,31 @@ fn drive_to_region(v: f64) -> Run {
         |_| Vec::new(),
     );
     run
+}
+
+/// How a run of 30 m ends for an ego that drives `l` metres beside its line, with a route or without one.
+fn drive_beside(l: f64, is_routed: bool) -> Option<Ending> {
+    let mut scenario = scenario(&[], Expectation::Progress(30.0));
+    if is_routed {
+        let at = |s| WayPoint::OnLane(Position { lane: LaneId(0), s });
+        let graph = LaneGraph::new(&scenario.map, RoutingConfig::default());
+        let route = graph
+            .route(&scenario.map, &[at(0.0), at(40.0)], &BlackList::default())
+            .unwrap();
+        let hd_map = Arc::new(HdMap::of_roads(&scenario.map).unwrap());
+        scenario.provider = Some(LineProvider::new(Arc::clone(&scenario.map), hd_map, route).unwrap());
+    }
+    let mut run = Run::new(scenario);
+    run.drive(5.0, |t| ego(10.0 + 8.0 * t, l, 0.0, 8.0), |_| Vec::new());
+    run.ending()
+}
+
+/// A route leads to a lane: beside it is not there.
+#[test]
+fn a_destination_is_reached_in_its_lane() {
+    assert_eq!(drive_beside(0.5, true), Some(Ending::GoalReached));
+    assert_eq!(drive_beside(3.5, true), None);
+    assert_eq!(drive_beside(3.5, false), Some(Ending::GoalReached));
 }
 
 #[test]

@@ -73,7 +73,7 @@ pub(super) fn scenario(cars: &[Pose], expect: Expectation) -> Scenario {
         description: String::new(),
         seed: 1,
         route: vec![LaneId(0)],
-        routing: None,
+        provider: None,
         target_line: Some(Arc::clone(&line)),
         line,
         ego: EgoStart {
