@@ -23,6 +23,8 @@ pub struct Context {
     pub path: Option<LastPath>,
     /// The trajectory of the last tick and the time it starts at.
     pub last: Option<LastTrajectory>,
+    /// Since when ticks could not be planned at all, s; `None`: the last one was.
+    pub blind_since: Option<f64>,
 }
 
 /// A path that is being driven.

@@ -1,8 +1,11 @@
 //! Planners: nothing but the order of the tasks.
 
-mod braking;
-mod choice;
 mod lane_follow;
-mod passing;
+mod plan;
+mod stage;
+mod task;
 
 pub use lane_follow::Planner;
+pub use plan::LinePlan;
+pub use stage::LANE_FOLLOW;
+pub use task::{TaskError, TaskName};

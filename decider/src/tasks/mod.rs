@@ -3,6 +3,7 @@
 pub mod lane_borrow;
 pub mod lane_change;
 pub mod path;
+pub mod path_assessment;
 pub mod path_bounds;
 pub mod scene;
 pub mod speed;

@@ -52,20 +52,13 @@ pub struct LateralState {
 /// The start point of this frame's plan.
 pub fn start_point(frame: &Frame, last: Option<&LastTrajectory>) -> StartPoint {
     last.and_then(|last| stitched(frame, last))
-        .unwrap_or_else(|| measured(frame))
+        .unwrap_or_else(|| StartPoint::measured(frame))
 }
 
 /// The last trajectory's point for now, if the ego is near it.
 fn stitched(frame: &Frame, last: &LastTrajectory) -> Option<StartPoint> {
     let point = at_time(&last.points, frame.time - last.time)?;
-    let error: Vec2 = point.pose.to_local(frame.ego.pose.position());
-    let across = if frame.ego.v < MANOEUVRING {
-        MANOEUVRING_TOLERANCE
-    } else {
-        LATERAL_TOLERANCE
-    };
-    let near = error.x.abs() <= LONGITUDINAL_TOLERANCE && error.y.abs() <= across;
-    near.then_some(StartPoint {
+    is_near(&point, frame).then_some(StartPoint {
         pose: point.pose,
         kappa: point.kappa,
         v: point.v,
@@ -73,19 +66,32 @@ fn stitched(frame: &Frame, last: &LastTrajectory) -> Option<StartPoint> {
     })
 }
 
-/// The ego as localised.
-fn measured(frame: &Frame) -> StartPoint {
-    let ego = &frame.ego;
-    let kappa = if ego.v > STANDSTILL {
-        ego.yaw_rate / ego.v
+/// Whether the ego is where a trajectory wants it to be.
+pub fn is_near(point: &TrajectoryPoint, frame: &Frame) -> bool {
+    let error: Vec2 = point.pose.to_local(frame.ego.pose.position());
+    let across = if frame.ego.v < MANOEUVRING {
+        MANOEUVRING_TOLERANCE
     } else {
-        0.0
+        LATERAL_TOLERANCE
     };
-    StartPoint {
-        pose: ego.pose,
-        kappa,
-        v: ego.v.max(0.0),
-        a: ego.a,
+    error.x.abs() <= LONGITUDINAL_TOLERANCE && error.y.abs() <= across
+}
+
+impl StartPoint {
+    /// The ego as localised.
+    pub fn measured(frame: &Frame) -> Self {
+        let ego = &frame.ego;
+        let kappa = if ego.v > STANDSTILL {
+            ego.yaw_rate / ego.v
+        } else {
+            0.0
+        };
+        Self {
+            pose: ego.pose,
+            kappa,
+            v: ego.v.max(0.0),
+            a: ego.a,
+        }
     }
 }
 

@@ -40,7 +40,7 @@ pub(super) fn assess(
     if !profile.l.iter().enumerate().all(inside) {
         return Err(Rejection::LeavesBound);
     }
-    let mut points = points(table, profile);
+    let mut points = to_points(table, profile);
     let limit = scene.vehicle.max_kappa() * scene.config.path.curvature_share;
     let bends = |p: &PathPoint| {
         let excess = START_EXCESS * (1.0 - p.distance / START_LENGTH).max(0.0);
@@ -93,7 +93,7 @@ fn rows_in(length: f64) -> usize {
 }
 
 /// A path as far as the body touches nothing.
-pub(super) fn until_contact(scene: &Scene, mut points: Vec<PathPoint>) -> Result<Path, Rejection> {
+pub(crate) fn until_contact(scene: &Scene, mut points: Vec<PathPoint>) -> Result<Path, Rejection> {
     let contact = first_contact(scene, &points);
     if let Some((k, id)) = contact {
         points.truncate(k);
@@ -104,11 +104,13 @@ pub(super) fn until_contact(scene: &Scene, mut points: Vec<PathPoint>) -> Result
     Ok(Path {
         points,
         blocked_by: contact.map(|(_, id)| id),
+        leads_to_goal: false,
+        is_reused: false,
     })
 }
 
 /// The profile in world coordinates (the original's Frenet-to-Cartesian conversion).
-fn points(table: &LineTable, profile: &Profile) -> Vec<PathPoint> {
+pub(crate) fn to_points(table: &LineTable, profile: &Profile) -> Vec<PathPoint> {
     let mut points: Vec<PathPoint> = Vec::with_capacity(profile.l.len());
     for (row, l) in table.rows.iter().zip(&profile.l) {
         let (pose, kappa) = to_world(row, *l);

@@ -7,21 +7,25 @@
 
 mod assess;
 mod bundle;
+mod candidates;
 mod corridor;
 mod profile;
 mod reuse;
 mod smooth;
 mod table;
 
+pub use candidates::run;
 pub use reuse::{is_on, reuse};
 pub use table::LineTable;
+pub(crate) use assess::{to_points, until_contact};
+pub(crate) use profile::Profile;
+pub(crate) use table::STEP;
 
 use super::path_bounds::PathBound;
 use super::scene::Scene;
 use crate::decision::{PathPoint, Rejection};
 use crate::frame::ObstacleId;
 use corridor::Corridor;
-use profile::Profile;
 use serde::{Deserialize, Serialize};
 
 /// Settings of the path layer.
@@ -69,6 +73,10 @@ pub struct Path {
     pub points: Vec<PathPoint>,
     /// What ends it, if something does before the bound's end.
     pub blocked_by: Option<ObstacleId>,
+    /// Whether it leads to where the car is to stop, or else to the bound's end.
+    pub leads_to_goal: bool,
+    /// Whether it is what is left of the path of the tick before.
+    pub is_reused: bool,
 }
 
 impl Path {
@@ -80,6 +88,12 @@ impl Path {
     /// Whether it leads all the way, or at least to where the car stops.
     pub fn serves(&self, goal: Goal) -> bool {
         self.blocked_by.is_none() || goal.stop_s.is_some_and(|s| self.end_s() >= s)
+    }
+
+    /// The same path, knowing whether it serves its goal.
+    fn leading_to(self, goal: Goal) -> Self {
+        let leads_to_goal = self.serves(goal);
+        Self { leads_to_goal, ..self }
     }
 
     /// Station of its end, m.

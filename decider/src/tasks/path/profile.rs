@@ -5,7 +5,7 @@ use super::table::STEP;
 
 /// Offset and its first three derivatives by station, at every station of the corridor.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Profile {
+pub(crate) struct Profile {
     pub l: Vec<[f64; 4]>,
 }
 

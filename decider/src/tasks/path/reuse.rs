@@ -55,5 +55,6 @@ pub fn reuse(scene: &Scene, old: &[PathPoint]) -> Option<Path> {
     if points.len() < 2 {
         return None;
     }
-    assess::until_contact(scene, points).ok()
+    let path = assess::until_contact(scene, points).ok()?;
+    Some(Path { is_reused: true, ..path })
 }

@@ -1,10 +1,11 @@
 //! The line ahead of the ego at every metre, asked once per tick and shared by all paths.
 
+use super::profile::Profile;
 use crate::geometry::{Vec2, angle};
 use crate::reference_line::{LineQuery, ReferenceLine};
 
 /// Distance between the points of a path, m.
-pub(super) const STEP: f64 = 1.0;
+pub(crate) const STEP: f64 = 1.0;
 
 /// One point of the line.
 #[derive(Clone, Copy, Debug)]
@@ -49,5 +50,16 @@ impl LineTable {
             rows[k].dkappa = (rows[k + 1].kappa - rows[k - 1].kappa) / (2.0 * STEP);
         }
         Self { rows }
+    }
+
+    /// Number of its points.
+    pub(crate) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// The least of `1 − κ l` along a profile: at 0 it runs through the line's centre of curvature.
+    pub(crate) fn least_stretch(&self, profile: &Profile) -> f64 {
+        let stretch = |(row, l): (&Row, &[f64; 4])| 1.0 - row.kappa * l[0];
+        self.rows.iter().zip(&profile.l).map(stretch).fold(f64::MAX, f64::min)
     }
 }

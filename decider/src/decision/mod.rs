@@ -1,8 +1,14 @@
 //! What one tick decides, and why.
 
-use crate::columns::Row;
+mod fallback;
+mod points;
+
+pub use fallback::{ContextFailure, Fallback, FallbackCause, PathRung, SpeedRung};
+pub use points::{PathPoint, TrajectoryPoint};
+
 use crate::frame::ObstacleId;
-use crate::geometry::{Pose, Vec2};
+use crate::geometry::Vec2;
+use crate::planner::TaskName;
 use crate::tasks::path_bounds::PathBound;
 use serde::{Deserialize, Serialize};
 
@@ -25,8 +31,26 @@ pub struct Decision {
     pub stop: Option<Stop>,
     /// How the tick ended.
     pub outcome: Outcome,
+    /// What failed and what is driven instead, if anything failed.
+    pub fallback: Option<Fallback>,
     /// Where the car will stop at the road's edge, once that is decided.
     pub pull_over: Option<PullOverTarget>,
+    /// What each task was given, what it found and why it failed, in the order in which they ran.
+    pub tasks: Vec<TaskReport>,
+}
+
+/// What one task had to say.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TaskReport {
+    /// Which task.
+    pub task: TaskName,
+    /// What it was given.
+    pub input: String,
+    /// What it found.
+    pub output: String,
+    /// Why it failed, if it did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
 }
 
 /// One bound with the verdict on its paths.
@@ -74,86 +98,6 @@ pub enum Rejection {
     TooShort,
 }
 
-/// A point of a path, at the rear axle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathPoint {
-    /// Arc length along the path from its first point, m.
-    pub distance: f64,
-    /// Station on the reference line.
-    pub s: f64,
-    /// Lateral offset from the reference line.
-    pub l: f64,
-    /// World pose.
-    pub pose: Pose,
-    /// Curvature of the path, 1/m.
-    pub kappa: f64,
-}
-
-impl Row for PathPoint {
-    const NAMES: &'static [&'static str] = &["distance", "s", "l", "x", "y", "theta", "kappa"];
-
-    fn number(&self, column: usize) -> f64 {
-        let p = self.pose;
-        [self.distance, self.s, self.l, p.x, p.y, p.theta, self.kappa][column]
-    }
-
-    fn from_numbers(number: impl Fn(usize) -> f64) -> Self {
-        Self {
-            distance: number(0),
-            s: number(1),
-            l: number(2),
-            pose: Pose::new(number(3), number(4), number(5)),
-            kappa: number(6),
-        }
-    }
-}
-
-/// A point of the trajectory, at the rear axle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TrajectoryPoint {
-    /// Seconds from the frame's time.
-    pub t: f64,
-    /// Arc length along the path, m.
-    pub distance: f64,
-    /// World pose.
-    pub pose: Pose,
-    /// Curvature, 1/m.
-    pub kappa: f64,
-    /// Speed, m/s.
-    pub v: f64,
-    /// Acceleration, m/s².
-    pub a: f64,
-}
-
-impl Row for TrajectoryPoint {
-    const NAMES: &'static [&'static str] = &["t", "distance", "x", "y", "theta", "kappa", "v", "a"];
-
-    fn number(&self, column: usize) -> f64 {
-        let p = self.pose;
-        [
-            self.t,
-            self.distance,
-            p.x,
-            p.y,
-            p.theta,
-            self.kappa,
-            self.v,
-            self.a,
-        ][column]
-    }
-
-    fn from_numbers(number: impl Fn(usize) -> f64) -> Self {
-        Self {
-            t: number(0),
-            distance: number(1),
-            pose: Pose::new(number(2), number(3), number(4)),
-            kappa: number(5),
-            v: number(6),
-            a: number(7),
-        }
-    }
-}
-
 /// Why the car slows down or stands.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stop {
@@ -182,18 +126,31 @@ pub enum StopCause {
     PathEnd,
 }
 
-/// How a tick ended.
+/// How a tick ended (the original's trajectory type).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// A path inside a wanted bound.
+    /// A path and a speed found in this tick.
     Normal,
-    /// No wanted bound was drivable: a path inside the fallback bound.
+    /// The path of the tick before, with a speed found in this tick.
+    PathReused,
+    /// A path found in this tick, and a speed that only stops.
+    SpeedFallback,
+    /// A path from further down the chain of fallbacks, and a speed that only stops.
     PathFallback,
-    /// No path at all: the last one, braking.
-    LastPath,
-    /// Nothing to drive on: full braking straight ahead.
+    /// The tick could not be planned at all: a stop along the trajectory of the tick before.
+    BlindStop,
+    /// The same for a car that stands: it stays where it is.
+    Hold,
+    /// Nothing to drive on: full braking, the wheels as they are.
     EmergencyStop,
+}
+
+impl Outcome {
+    /// Whether this tick's own path and speed are driven.
+    pub fn is_planned(self) -> bool {
+        matches!(self, Self::Normal | Self::PathReused)
+    }
 }
 
 /// Where and how the car will stand at the road's edge.

@@ -1,0 +1,64 @@
+//! The plan along one line while the tasks work on it (the original's `ReferenceLineInfo`).
+
+use crate::decision::{Assessment, Candidate, PullOverTarget, Rejection, Stop, TaskReport};
+use crate::tasks::path::Path;
+use crate::tasks::path_bounds::{Borrow, Label, PathBounds};
+use crate::tasks::scene::Scene;
+use crate::trajectory::SpeedData;
+
+/// What the tasks have found so far. Each field is written by the task named beside it.
+#[derive(Debug)]
+pub struct LinePlan<'a> {
+    /// The frame seen along the line.
+    pub scene: Scene<'a>,
+    /// Sides that may be borrowed (lane borrow).
+    pub borrow: Vec<Borrow>,
+    /// The bounds (path bounds).
+    pub bounds: PathBounds,
+    /// Per bound its path; `None` where none was looked for (piecewise-jerk path).
+    pub candidates: Vec<Option<Result<Path, Rejection>>>,
+    /// Per bound what became of it (path assessment).
+    pub assessments: Vec<Assessment>,
+    /// The path that is driven, and the place of its bound (path assessment).
+    pub chosen: Option<(usize, Path)>,
+    /// Whether a borrowed lane leads past what blocks the own one, be it free or not, if that was looked at (path
+    /// assessment).
+    pub borrow_leads_on: Option<bool>,
+    /// Where the car would stand on the chosen path (rule-based stop).
+    pub wall: Option<Stop>,
+    /// Why the car slows down (speed).
+    pub stop: Option<Stop>,
+    /// Speed along the chosen path (speed).
+    pub speed: Option<SpeedData>,
+    /// What each task that ran had to say.
+    pub reports: Vec<TaskReport>,
+}
+
+impl<'a> LinePlan<'a> {
+    /// A plan that nothing has worked on yet.
+    pub fn new(scene: Scene<'a>) -> Self {
+        Self {
+            scene,
+            borrow: Vec::new(),
+            bounds: PathBounds::default(),
+            candidates: Vec::new(),
+            assessments: Vec::new(),
+            chosen: None,
+            borrow_leads_on: None,
+            wall: None,
+            stop: None,
+            speed: None,
+            reports: Vec::new(),
+        }
+    }
+
+    /// Label of the bound whose path is driven.
+    pub fn label(&self) -> Option<Label> {
+        self.chosen.as_ref().map(|(place, _)| self.bounds.bounds[*place].label)
+    }
+
+    /// The path that is driven.
+    pub fn path(&self) -> Option<&Path> {
+        self.chosen.as_ref().map(|(_, path)| path)
+    }
+}

@@ -1,0 +1,52 @@
+//! The stage: tasks run in the order of a list, up to the first that fails.
+
+use super::plan::LinePlan;
+use super::task::{TaskError, TaskName};
+use crate::context::Context;
+use crate::decision::TaskReport;
+
+/// The tasks of lane following, in the original's order.
+pub const LANE_FOLLOW: [TaskName; 14] = [
+    TaskName::LaneChange,
+    TaskName::PathReuse,
+    TaskName::LaneBorrow,
+    TaskName::PathBounds,
+    TaskName::PiecewiseJerkPath,
+    TaskName::PathAssessment,
+    TaskName::PathDecider,
+    TaskName::RuleBasedStop,
+    TaskName::SpeedBoundsPriori,
+    TaskName::SpeedHeuristic,
+    TaskName::SpeedDecider,
+    TaskName::SpeedBoundsFinal,
+    TaskName::PiecewiseJerkSpeed,
+    TaskName::Rss,
+];
+
+/// Runs tasks in order. `fails` says which of them are to fail, whatever they would find.
+///
+/// # Errors
+/// The first task that failed, and why; those after it have not run.
+pub(super) fn run(
+    tasks: &[TaskName],
+    plan: &mut LinePlan,
+    context: &mut Context,
+    fails: &dyn Fn(TaskName) -> bool,
+) -> Result<(), (TaskName, TaskError)> {
+    for task in tasks {
+        let input = task.input(plan);
+        let result = if fails(*task) {
+            Err(TaskError::OnRequest)
+        } else {
+            task.run()(plan, context)
+        };
+        plan.reports.push(TaskReport {
+            task: *task,
+            input,
+            output: task.output(plan),
+            error: result.err().map(|error| error.to_string()),
+        });
+        result.map_err(|error| (*task, error))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,66 @@
+//! The names of the tasks, in the original's words, and which function each of them is.
+
+use super::plan::LinePlan;
+use crate::context::Context;
+use crate::tasks::path_bounds::PathBoundsError;
+use crate::tasks::{lane_borrow, lane_change, path, path_assessment, path_bounds, speed};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// A task of a stage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TaskName {
+    /// Whether the target lane is free.
+    LaneChange,
+    /// Which neighbouring lanes may be used to pass.
+    LaneBorrow,
+    /// How far left and right the car may be.
+    PathBounds,
+    /// The best path inside each bound.
+    PiecewiseJerkPath,
+    /// Which of them is driven.
+    PathAssessment,
+    /// Speed along the path by rules.
+    Speed,
+}
+
+/// What a task is: it reads and extends the plan, and remembers in the context.
+pub(super) type Run = fn(&mut LinePlan, &mut Context) -> Result<(), TaskError>;
+
+/// Why a task failed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TaskError {
+    /// The lane to change to is not free.
+    #[error("the lane to change to is not free")]
+    LaneChangeNotClear,
+    /// There are no bounds.
+    #[error(transparent)]
+    PathBounds(#[from] PathBoundsError),
+    /// No path inside any of the bounds.
+    #[error("no bound has a drivable path")]
+    NoPath,
+    /// A failure asked for from outside, to see what comes of it.
+    #[error("failed on request")]
+    OnRequest,
+}
+
+impl TaskName {
+    pub(super) fn run(self) -> Run {
+        match self {
+            Self::LaneChange => lane_change::run,
+            Self::LaneBorrow => lane_borrow::run,
+            Self::PathBounds => path_bounds::run,
+            Self::PiecewiseJerkPath => path::run,
+            Self::PathAssessment => path_assessment::run,
+            Self::Speed => speed::run,
+        }
+    }
+}
+
+impl fmt::Display for TaskName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
+    }
+}
