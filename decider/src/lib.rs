@@ -19,5 +19,6 @@ pub mod planner;
 pub mod reference_line;
 pub mod road;
 pub mod routing;
+pub mod st_graph;
 pub mod tasks;
 pub mod vehicle;
