@@ -20,6 +20,7 @@ pub mod planner;
 pub mod reference_line;
 pub mod road;
 pub mod routing;
+pub mod st_graph;
 pub mod tasks;
 pub mod trajectory;
 pub mod vehicle;

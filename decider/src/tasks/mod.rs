@@ -2,6 +2,7 @@
 
 pub mod lane_borrow;
 pub mod lane_change;
+pub mod object_decision;
 pub mod path;
 pub mod path_assessment;
 pub mod path_bounds;
