@@ -1,5 +1,6 @@
 //! Every knob of the decider. Names in `path_bounds` are the original's.
 
+use crate::planner::{LANE_FOLLOW, TaskName};
 use crate::tasks::lane_borrow::LaneBorrowConfig;
 use crate::tasks::path::PathConfig;
 use crate::tasks::path_bounds::PathBoundsConfig;
@@ -7,9 +8,11 @@ use crate::tasks::speed::SpeedConfig;
 use serde::{Deserialize, Serialize};
 
 /// Settings of all tasks.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Config {
+    /// The tasks of the stage, in the order in which they run.
+    pub tasks: Vec<TaskName>,
     /// Path bounds, quirks included.
     pub path_bounds: PathBoundsConfig,
     /// Borrowing a neighbouring lane.
@@ -18,6 +21,18 @@ pub struct Config {
     pub path: PathConfig,
     /// Speed along a path.
     pub speed: SpeedConfig,
+}
+
+impl Default for Config {
+    fn default() -> Self {
+        Self {
+            tasks: LANE_FOLLOW.to_vec(),
+            path_bounds: PathBoundsConfig::default(),
+            lane_borrow: LaneBorrowConfig::default(),
+            path: PathConfig::default(),
+            speed: SpeedConfig::default(),
+        }
+    }
 }
 
 impl Config {

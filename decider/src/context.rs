@@ -30,6 +30,8 @@ pub struct Context {
 /// A path that is being driven.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LastPath {
+    /// Time of the frame that it was found for, s.
+    pub time: f64,
     /// Label of the bound that it was found in.
     pub label: Label,
     /// Its points.

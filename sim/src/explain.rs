@@ -194,7 +194,26 @@ fn conclusion(out: &mut Formatter<'_>, trace: &Trace, tick: &TickRecord) -> fmt:
             at.s, at.l, target.position.x, target.position.y, target.theta
         )?;
     }
-    writeln!(out, "outcome     {}", words::outcome(decision.outcome))
+    writeln!(out, "outcome     {}", words::outcome(decision.outcome))?;
+    if let Some(fallback) = decision.fallback {
+        writeln!(out, "fallback    {}", words::fallback(trace, fallback))?;
+    }
+    tasks(out, tick)
+}
+
+/// What each task was given, what it found, and which one failed.
+fn tasks(out: &mut Formatter<'_>, tick: &TickRecord) -> fmt::Result {
+    for (k, report) in tick.decision.tasks.iter().enumerate() {
+        if k == 0 {
+            writeln!(out, "\ntasks")?;
+        }
+        let name = report.task.to_string();
+        writeln!(out, "    {name:<26} {} -> {}", report.input, report.output)?;
+        if let Some(error) = &report.error {
+            writeln!(out, "    {:<26} failed: {error}", "")?;
+        }
+    }
+    Ok(())
 }
 
 /// What happened around `time`.
@@ -247,7 +266,7 @@ mod tests {
              s   65.3…  74.8  right: obstacle `van` (+0.70 m)\n    \
              s   75.3… 130.3  right: lane line (-0.69 m)",
             "stop        none",
-            "outcome     normal: a path inside a wanted bound",
+            "outcome     normal: a path and a speed of this tick",
             "events within 1 s\n*   1.20 s  label: regular/self/ -> regular/left/reverse around `van`",
         ];
         let mut rest = &text[..];

@@ -66,7 +66,7 @@ impl Story {
             texts.push((EventKind::LabelChanged, text));
             self.label = label;
         }
-        if decision.outcome != self.outcome && decision.outcome != Outcome::Normal {
+        if decision.outcome != self.outcome && !decision.outcome.is_planned() {
             texts.push((EventKind::Fallback, fallen_back(decision.outcome).to_owned()));
         }
         self.outcome = decision.outcome;
@@ -115,12 +115,14 @@ impl Story {
     }
 }
 
-/// What is driven instead of a path inside a wanted bound.
+/// What is driven instead of a plan.
 fn fallen_back(outcome: Outcome) -> &'static str {
     match outcome {
-        Outcome::Normal => "not at all",
-        Outcome::PathFallback => "drives inside the fallback bound",
-        Outcome::LastPath => "brakes along the path of the tick before",
-        Outcome::EmergencyStop => "brakes fully, straight ahead",
+        Outcome::Normal | Outcome::PathReused => "not at all",
+        Outcome::SpeedFallback => "stops on its path",
+        Outcome::PathFallback => "stops on another path",
+        Outcome::BlindStop => "stops along the trajectory of the tick before",
+        Outcome::Hold => "stays where it is",
+        Outcome::EmergencyStop => "brakes fully, the wheels as they are",
     }
 }

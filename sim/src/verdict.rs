@@ -1,5 +1,6 @@
 //! How a run ended: every metric with its value, its threshold and its worst moment.
 
+use corridor_decider::decision::{Fallback, Outcome};
 use serde::{Deserialize, Serialize};
 
 /// The judgement on one run.
@@ -19,8 +20,28 @@ pub struct Verdict {
     pub collisions: Vec<Collision>,
     /// Ticks per outcome of the decider, by name.
     pub outcomes: Vec<(String, u32)>,
+    /// Per rung of the chain of fallbacks how often and why it was needed.
+    #[serde(default)]
+    pub fallbacks: Vec<FallbackCount>,
     /// Hash over all ticks' state hashes, hexadecimal.
     pub digest: String,
+}
+
+/// The ticks that ended on one rung for one reason.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FallbackCount {
+    /// How they ended.
+    pub outcome: Outcome,
+    /// The rung and what led there.
+    pub fallback: Fallback,
+    /// How many.
+    pub ticks: u32,
+    /// When the first of them was, s.
+    pub first: f64,
+    /// Longest time between the first and the last of a row of them, s.
+    pub longest: f64,
+    /// Whether a tick was planned again after the last of them.
+    pub recovered: bool,
 }
 
 /// How a run ended.

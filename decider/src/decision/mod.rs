@@ -39,6 +39,33 @@ pub struct Decision {
     pub tasks: Vec<TaskReport>,
 }
 
+impl Decision {
+    /// A decision without bounds and path.
+    pub(crate) fn without_path(
+        outcome: Outcome,
+        cause: FallbackCause,
+        speed: Option<SpeedRung>,
+        trajectory: Vec<TrajectoryPoint>,
+    ) -> Self {
+        Self {
+            line: 0,
+            candidates: Vec::new(),
+            chosen: None,
+            path: Vec::new(),
+            trajectory,
+            stop: None,
+            outcome,
+            fallback: Some(Fallback {
+                cause,
+                path: None,
+                speed,
+            }),
+            pull_over: None,
+            tasks: Vec::new(),
+        }
+    }
+}
+
 /// What one task had to say.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TaskReport {

@@ -4,13 +4,13 @@
 //! trajectory. Here the car stops along the trajectory of the tick before; where there is none it brakes as hard as
 //! it can with its wheels as they are. Only a car that stands is told to stay where it is.
 
-use super::speed_profile;
-use super::held_arc;
+use super::{held_arc, speed};
 use crate::context::{Context, LastTrajectory};
-use crate::decision::{ContextFailure, Decision, Fallback, FallbackCause, Outcome, SpeedRung, TrajectoryPoint};
+use crate::decision::{ContextFailure, Decision, FallbackCause, Outcome, SpeedRung, TrajectoryPoint};
 use crate::frame::Frame;
 use crate::geometry::{Pose, angle};
 use crate::tasks::start_point::{StartPoint, at_time, is_near};
+use crate::trajectory;
 use crate::vehicle::VehicleParams;
 
 /// Longest time that a car may drive blind along an old trajectory, s.
@@ -18,6 +18,9 @@ const MAX_BLIND_TIME: f64 = 1.5;
 
 /// An older trajectory is not followed, s.
 const MAX_AGE: f64 = 0.5;
+
+/// How far ahead a car that stands is told to stay, s.
+const HOLD_TIME: f64 = 3.0;
 
 /// Slower than this an overlap with an obstacle is a state and no accident under way, m/s (the original's 1e-3).
 const STANDS: f64 = 1e-3;
@@ -69,14 +72,21 @@ pub fn without_context(
 
 /// The end of the chain: as hard as it can, the wheels as they are.
 pub(super) fn brake_on_arc(start: &StartPoint, vehicle: &VehicleParams) -> Vec<TrajectoryPoint> {
-    let profile = speed_profile::constant_deceleration(start.v, vehicle.max_deceleration);
-    let at = |distance| (held_arc::pose(start, distance), start.kappa);
-    profile.trajectory(at)
+    let (_, profile) = speed::stopping(start.v, start.a, vehicle, None);
+    trajectory::on(&profile, |distance| (held_arc::pose(start, distance), start.kappa))
 }
 
 /// A car that stands, standing.
 fn hold(pose: Pose) -> Vec<TrajectoryPoint> {
-    speed_profile::constant_deceleration(0.0, -1.0).trajectory(|_| (pose, 0.0))
+    let standing = |t: f64| TrajectoryPoint {
+        t,
+        distance: 0.0,
+        pose,
+        kappa: 0.0,
+        v: 0.0,
+        a: 0.0,
+    };
+    [0.0, HOLD_TIME].map(standing).to_vec()
 }
 
 /// A stop on what is left of the last trajectory, from the motion that is measured or, failing that, planned.
@@ -95,9 +105,9 @@ fn stop_along(
     } else {
         (now.v, now.a)
     };
-    let (rung, profile) = super::speed::stopping(v, a, vehicle, None);
+    let (rung, profile) = speed::stopping(v, a, vehicle, None);
     let at = |distance| along(&last.points, now.distance + distance);
-    Some((rung, profile.trajectory(at)))
+    Some((rung, trajectory::on(&profile, at)))
 }
 
 /// Pose and curvature at a distance along a trajectory; its end goes on straight.

@@ -93,7 +93,7 @@ fn offset_line(scene: &Scene) -> Option<Path> {
 }
 
 /// Adds what is missing to a length along the last heading.
-fn go_on_straight(points: &mut Vec<PathPoint>, length: f64) {
+pub(super) fn go_on_straight(points: &mut Vec<PathPoint>, length: f64) {
     while let Some(last) = points.last().copied().filter(|last| last.distance < length) {
         points.push(PathPoint {
             distance: last.distance + STEP,

@@ -5,8 +5,8 @@ use super::stage;
 use super::task::TaskName;
 use crate::config::Config;
 use crate::context::{Context, LastPath, LastTrajectory};
-use crate::decision::{Candidate, Decision, FallbackCause, Outcome};
-use crate::fallback;
+use crate::decision::{Candidate, Decision, FallbackCause, PullOverTarget};
+use crate::fallback::{self, Driven};
 use crate::frame::Frame;
 use crate::tasks::lane_change;
 use crate::tasks::path_bounds::Label;
@@ -86,34 +86,34 @@ impl Planner {
 }
 
 /// From a plan to a decision, with what the next tick has to know.
-fn conclude(mut plan: LinePlan, context: &mut Context, failed: Option<FallbackCause>) -> Decision {
+fn conclude(plan: LinePlan, context: &mut Context, failed: Option<FallbackCause>) -> Decision {
     let planned = match failed {
         Some(cause) => Err(cause),
         None => trajectory::normal(&plan).map_err(|_| FallbackCause::Trajectory),
     };
-    let (trajectory, outcome, fallback) = match planned {
-        Ok(trajectory) => {
-            let reused = plan.path().is_some_and(|path| path.is_reused);
-            let outcome = if reused { Outcome::PathReused } else { Outcome::Normal };
-            (trajectory, outcome, None)
-        }
-        Err(cause) => fallback::along_line(&mut plan, context.path.as_ref(), cause),
+    let driven = match planned {
+        Ok(trajectory) => Driven::planned(&plan, trajectory),
+        Err(cause) => fallback::along_line(&plan, context.path.as_ref(), cause),
     };
     remember(&plan, context);
     let label = plan.label();
-    let chosen = plan.chosen.as_ref().map(|(place, _)| *place);
     let place = context.bounds.pull_over.place.filter(|_| label == Some(Label::PullOver));
     let candidates = plan.bounds.bounds.into_iter().zip(plan.assessments);
     Decision {
         line: usize::from(plan.scene.is_change_lane),
-        candidates: candidates.map(|(bound, assessment)| Candidate { bound, assessment }).collect(),
-        chosen,
-        path: plan.chosen.map(|(_, path)| path.points).or(plan.fallback_path).unwrap_or_default(),
-        trajectory,
+        candidates: candidates
+            .map(|(bound, assessment)| Candidate { bound, assessment })
+            .collect(),
+        chosen: plan.chosen.map(|(place, _)| place),
+        path: driven.path,
+        trajectory: driven.trajectory,
         stop: plan.stop,
-        outcome,
-        fallback,
-        pull_over: place.map(Into::into),
+        outcome: driven.outcome,
+        fallback: driven.fallback,
+        pull_over: place.map(|place| PullOverTarget {
+            position: place.position,
+            theta: place.theta,
+        }),
         tasks: plan.reports,
     }
 }
@@ -124,6 +124,7 @@ fn remember(plan: &LinePlan, context: &mut Context) {
     if let Some((place, path)) = &plan.chosen {
         context.bounds.passed.clone_from(&plan.bounds.passed[*place]);
         context.path = Some(LastPath {
+            time: plan.scene.frame.time,
             label: plan.bounds.bounds[*place].label,
             points: path.points.clone(),
         });

@@ -2,6 +2,7 @@
 
 mod lane_follow;
 mod plan;
+mod report;
 mod stage;
 mod task;
 

@@ -1,16 +1,20 @@
 //! The plan along one line while the tasks work on it (the original's `ReferenceLineInfo`).
 
-use crate::decision::{Assessment, Candidate, PullOverTarget, Rejection, Stop, TaskReport};
+use crate::decision::{Assessment, Rejection, Stop, TaskReport};
 use crate::tasks::path::Path;
 use crate::tasks::path_bounds::{Borrow, Label, PathBounds};
 use crate::tasks::scene::Scene;
-use crate::trajectory::SpeedData;
+use crate::st_graph::SpeedData;
+use crate::tasks::object_decision::ObjectDecision;
+use crate::context::LastPath;
 
 /// What the tasks have found so far. Each field is written by the task named beside it.
 #[derive(Debug)]
 pub struct LinePlan<'a> {
     /// The frame seen along the line.
     pub scene: Scene<'a>,
+    /// The way of the tick before, if it may still be driven (path reuse).
+    pub last_path: Option<LastPath>,
     /// Sides that may be borrowed (lane borrow).
     pub borrow: Vec<Borrow>,
     /// The bounds (path bounds).
@@ -24,6 +28,10 @@ pub struct LinePlan<'a> {
     /// Whether a borrowed lane leads past what blocks the own one, be it free or not, if that was looked at (path
     /// assessment).
     pub borrow_leads_on: Option<bool>,
+    /// What is decided about each of the scene's obstacles (path decider, speed decider).
+    pub decisions: Vec<ObjectDecision>,
+    /// Where the car would stand before what blocks the chosen path, m along it (path decider).
+    pub stop_before_blocker: Option<f64>,
     /// Where the car would stand on the chosen path (rule-based stop).
     pub wall: Option<Stop>,
     /// Why the car slows down (speed).
@@ -38,7 +46,10 @@ impl<'a> LinePlan<'a> {
     /// A plan that nothing has worked on yet.
     pub fn new(scene: Scene<'a>) -> Self {
         Self {
+            decisions: vec![ObjectDecision::default(); scene.obstacles.len()],
             scene,
+            last_path: None,
+            stop_before_blocker: None,
             borrow: Vec::new(),
             bounds: PathBounds::default(),
             candidates: Vec::new(),

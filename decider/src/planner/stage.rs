@@ -6,7 +6,7 @@ use crate::context::Context;
 use crate::decision::TaskReport;
 
 /// The tasks of lane following, in the original's order.
-pub const LANE_FOLLOW: [TaskName; 14] = [
+pub const LANE_FOLLOW: [TaskName; 9] = [
     TaskName::LaneChange,
     TaskName::PathReuse,
     TaskName::LaneBorrow,
@@ -15,12 +15,7 @@ pub const LANE_FOLLOW: [TaskName; 14] = [
     TaskName::PathAssessment,
     TaskName::PathDecider,
     TaskName::RuleBasedStop,
-    TaskName::SpeedBoundsPriori,
-    TaskName::SpeedHeuristic,
-    TaskName::SpeedDecider,
-    TaskName::SpeedBoundsFinal,
-    TaskName::PiecewiseJerkSpeed,
-    TaskName::Rss,
+    TaskName::Speed,
 ];
 
 /// Runs tasks in order. `fails` says which of them are to fail, whatever they would find.

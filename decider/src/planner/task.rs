@@ -3,7 +3,9 @@
 use super::plan::LinePlan;
 use crate::context::Context;
 use crate::tasks::path_bounds::PathBoundsError;
-use crate::tasks::{lane_borrow, lane_change, path, path_assessment, path_bounds, speed};
+use crate::tasks::{
+    lane_borrow, lane_change, path, path_assessment, path_bounds, path_decider, path_reuse, rule_based_stop, speed,
+};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -13,6 +15,8 @@ use std::fmt;
 pub enum TaskName {
     /// Whether the target lane is free.
     LaneChange,
+    /// Whether the way of the tick before may still be driven.
+    PathReuse,
     /// Which neighbouring lanes may be used to pass.
     LaneBorrow,
     /// How far left and right the car may be.
@@ -21,6 +25,10 @@ pub enum TaskName {
     PiecewiseJerkPath,
     /// Which of them is driven.
     PathAssessment,
+    /// How the path passes each standing obstacle.
+    PathDecider,
+    /// Where the car stands on its path.
+    RuleBasedStop,
     /// Speed along the path by rules.
     Speed,
 }
@@ -50,10 +58,13 @@ impl TaskName {
     pub(super) fn run(self) -> Run {
         match self {
             Self::LaneChange => lane_change::run,
+            Self::PathReuse => path_reuse::run,
             Self::LaneBorrow => lane_borrow::run,
             Self::PathBounds => path_bounds::run,
             Self::PiecewiseJerkPath => path::run,
             Self::PathAssessment => path_assessment::run,
+            Self::PathDecider => path_decider::run,
+            Self::RuleBasedStop => rule_based_stop::run,
             Self::Speed => speed::run,
         }
     }

@@ -5,6 +5,8 @@
 
 use super::path_bounds::Borrow;
 use super::scene::Scene;
+use crate::context::Context;
+use crate::planner::{LinePlan, TaskError};
 use crate::reference_line::LineQuery;
 use crate::road::BoundaryType;
 use serde::{Deserialize, Serialize};
@@ -68,8 +70,17 @@ const LOOK_AHEAD: f64 = 100.0;
 /// How often it is read, m.
 const STEP: f64 = 2.0;
 
+/// Finds the sides that may be borrowed.
+///
+/// # Errors
+/// None.
+pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> {
+    plan.borrow = decide(&plan.scene, &mut context.borrow);
+    Ok(())
+}
+
 /// Sides that may be borrowed in this tick.
-pub fn decide(scene: &Scene, state: &mut BorrowState) -> Vec<Borrow> {
+fn decide(scene: &Scene, state: &mut BorrowState) -> Vec<Borrow> {
     let config = &scene.config.lane_borrow;
     let leaves = state.usable_cycles >= config.usable_self_lane_cycle_threshold;
     if !config.allow_lane_borrowing || scene.is_change_lane || leaves {

@@ -3,7 +3,9 @@
 //! The gaps are the original's (`IsClearToChangeLane`): by relative speed, with a hysteresis per obstacle.
 
 use super::scene::Scene;
+use crate::context::Context;
 use crate::frame::{Frame, ObstacleId};
+use crate::planner::{LinePlan, TaskError};
 use crate::reference_line::LineQuery;
 
 /// Least gap ahead and behind among traffic of our direction, m.
@@ -36,6 +38,24 @@ pub struct LaneChangeState {
 /// Place of the line to change to, if the frame offers one.
 pub fn target_line(frame: &Frame) -> Option<usize> {
     frame.lines.iter().position(|line| line.is_change_lane)
+}
+
+/// Lets a plan along the target line go on only while that is free.
+///
+/// # Errors
+/// [`TaskError::LaneChangeNotClear`] where it is not.
+pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> {
+    let scene = &mut plan.scene;
+    if scene.is_change_lane {
+        let is_clear = is_clear(scene, &mut context.lane_change);
+        context.bounds.change_lane.is_clear = is_clear;
+        return if is_clear { Ok(()) } else { Err(TaskError::LaneChangeNotClear) };
+    }
+    if target_line(scene.frame).is_some() {
+        // Who keeps the speed of the traffic beside him never meets another gap.
+        scene.cruise_speed *= scene.config.speed.gap_seeking_share;
+    }
+    Ok(())
 }
 
 /// Whether the change along this scene's line may be driven now.

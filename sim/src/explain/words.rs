@@ -1,7 +1,9 @@
 //! Words for what a decision holds: causes, assessments, commands, outcomes. For the terminal and the page.
 
 use crate::trace::{EventKind, Trace};
-use corridor_decider::decision::{Assessment, Outcome, Rejection, Stop, StopCause};
+use corridor_decider::decision::{
+    Assessment, ContextFailure, Fallback, FallbackCause, Outcome, PathRung, Rejection, SpeedRung, Stop, StopCause,
+};
 use corridor_decider::frame::Command;
 use corridor_decider::road::Side;
 use corridor_decider::tasks::path_bounds::{BoundPoint, EdgeCause, PathBound};
@@ -68,11 +70,41 @@ pub(crate) fn command(command: Command) -> String {
 /// How a tick ended.
 pub(crate) fn outcome(outcome: Outcome) -> &'static str {
     match outcome {
-        Outcome::Normal => "normal: a path inside a wanted bound",
-        Outcome::PathFallback => "path fallback: a path inside the fallback bound",
-        Outcome::LastPath => "last path: the one of the tick before, braking",
-        Outcome::EmergencyStop => "emergency stop: full braking straight ahead",
+        Outcome::Normal => "normal: a path and a speed of this tick",
+        Outcome::PathReused => "path reused: the way of the tick before, a speed of this tick",
+        Outcome::SpeedFallback => "speed fallback: a path of this tick, a speed that only stops",
+        Outcome::PathFallback => "path fallback: a path from elsewhere, a speed that only stops",
+        Outcome::BlindStop => "blind stop: along the trajectory of the tick before",
+        Outcome::Hold => "hold: stays where it is",
+        Outcome::EmergencyStop => "emergency stop: full braking, the wheels as they are",
     }
+}
+
+/// What failed and what is driven instead.
+pub(crate) fn fallback(trace: &Trace, fallback: Fallback) -> String {
+    let cause = match fallback.cause {
+        FallbackCause::Task(task) => format!("the task `{task}` failed"),
+        FallbackCause::Trajectory => "the trajectory is not fit to be driven".to_owned(),
+        FallbackCause::Context(ContextFailure::NoLocalisation) => "the ego's place is not known".to_owned(),
+        FallbackCause::Context(ContextFailure::NoReferenceLine) => "there is no reference line".to_owned(),
+        FallbackCause::Context(ContextFailure::Overlap(id)) => {
+            format!("the ego stands inside `{}`", trace.obstacle(id))
+        }
+    };
+    let path = fallback.path.map(|rung| match rung {
+        PathRung::LastPath => "path: of the tick before",
+        PathRung::SelfLane => "path: in the own lane",
+        PathRung::OffsetLine => "path: beside the reference line",
+        PathRung::HeldArc => "path: on as the wheels are set",
+    });
+    let speed = fallback.speed.map(|rung| match rung {
+        SpeedRung::Optimised => "speed: optimised stop",
+        SpeedRung::EmergencyJerk => "speed: optimised stop with emergency jerk",
+        SpeedRung::Ramp => "speed: braking ramp",
+        SpeedRung::ConstantDeceleration => "speed: constant braking",
+    });
+    let parts = [Some(&cause[..]), path, speed];
+    parts.into_iter().flatten().collect::<Vec<&str>>().join("; ")
 }
 
 /// Class of an event.

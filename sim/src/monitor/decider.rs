@@ -1,17 +1,14 @@
-//! `decider_ok`, `fallback_ratio`, `fallback_longest`, `pull_over_retargets`: whether the answers are sound.
+//! `decider_ok`, `pull_over_retargets`: whether the answers are sound.
 //!
 //! A sound answer holds finite numbers only, bounds with `l_min <= l_max` and increasing stations, at least two
 //! points in what is driven, and indices that exist.
 
-use super::measure::{Extreme, LongestSpan, Measure};
+use super::measure::{Extreme, Measure};
 use super::plan::Plan;
 use corridor_decider::decision::{Candidate, Decision, Outcome, PullOverTarget};
 use corridor_decider::frame::Frame;
 use corridor_decider::geometry::Pose;
 use corridor_decider::tasks::path_bounds::PathBound;
-
-/// Largest share of ticks on a fallback in a situation that can be solved.
-const FALLBACK_LIMIT: f64 = 0.05;
 
 /// Changes of the target after its first choice that are good.
 const RETARGET_LIMIT: f64 = 1.0;
@@ -20,10 +17,13 @@ const RETARGET_LIMIT: f64 = 1.0;
 const SAME_TARGET: f64 = 0.1;
 
 /// The outcomes in the order of the verdict, with their names.
-const OUTCOMES: [(Outcome, &str); 4] = [
+const OUTCOMES: [(Outcome, &str); 7] = [
     (Outcome::Normal, "normal"),
+    (Outcome::PathReused, "path_reused"),
+    (Outcome::SpeedFallback, "speed_fallback"),
     (Outcome::PathFallback, "path_fallback"),
-    (Outcome::LastPath, "last_path"),
+    (Outcome::BlindStop, "blind_stop"),
+    (Outcome::Hold, "hold"),
     (Outcome::EmergencyStop, "emergency_stop"),
 ];
 
@@ -33,7 +33,6 @@ pub(super) struct DeciderWatch {
     violations: u32,
     first: Option<(f64, String)>,
     counts: [u32; OUTCOMES.len()],
-    fallback: LongestSpan,
     target: Option<PullOverTarget>,
     retargets: u32,
     last_retarget: Extreme,
@@ -47,7 +46,6 @@ impl DeciderWatch {
         for (count, (outcome, _)) in self.counts.iter_mut().zip(OUTCOMES) {
             *count += u32::from(outcome == plan.outcome);
         }
-        self.fallback.sample(plan.outcome != Outcome::Normal, frame.time);
         if let Some(target) = plan.target {
             let moved = |old: PullOverTarget| (old.position - target.position).norm() > SAME_TARGET;
             if self.target.is_some_and(moved) {
@@ -82,15 +80,10 @@ impl DeciderWatch {
     pub(super) fn measures(&self) -> Vec<Measure> {
         let violations = Measure::new("decider_ok", Some(f64::from(self.violations)));
         let first = self.first.as_ref().map(|(time, _)| *time);
-        let ticks: u32 = self.counts.iter().sum();
-        let fallbacks = f64::from(ticks - self.counts[0]);
-        let ratio = (ticks > 0).then(|| fallbacks / f64::from(ticks));
         let retargets = self.target.map(|_| f64::from(self.retargets));
         let retargets = self.last_retarget.measure("pull_over_retargets").value(retargets);
         vec![
             violations.at(first).at_most(0.0).gate(),
-            Measure::new("fallback_ratio", ratio).at_most(FALLBACK_LIMIT),
-            self.fallback.measure("fallback_longest"),
             retargets.at_most(RETARGET_LIMIT),
         ]
     }
@@ -98,7 +91,8 @@ impl DeciderWatch {
 
 /// The first thing wrong with an answer.
 fn fault(frame: &Frame, decision: &Decision) -> Option<String> {
-    if decision.line >= frame.lines.len() {
+    // Where there is no line, none can be named.
+    if decision.line >= frame.lines.len().max(1) {
         return Some(format!(
             "plans along line {} of {}",
             decision.line,

@@ -14,6 +14,7 @@ mod bounds;
 mod collision;
 mod decider;
 mod ending;
+mod fallbacks;
 mod labels;
 mod measure;
 mod motion;
@@ -68,6 +69,7 @@ pub struct Monitor {
     progress: progress::ProgressWatch,
     standstill: standstill::StandstillWatch,
     decider: decider::DeciderWatch,
+    fallbacks: fallbacks::FallbackWatch,
     ttc: ttc::TtcWatch,
     motion: motion::MotionWatch,
     silhouettes: silhouette::Silhouettes,
@@ -96,6 +98,7 @@ impl Monitor {
             progress: progress::ProgressWatch::new(scenario),
             standstill: standstill::StandstillWatch::default(),
             decider: decider::DeciderWatch::default(),
+            fallbacks: fallbacks::FallbackWatch::default(),
             ttc: ttc::TtcWatch::new(scenario),
             motion: motion::MotionWatch::default(),
             silhouettes: silhouette::Silhouettes::default(),
@@ -130,6 +133,7 @@ impl Monitor {
     pub fn tick(&mut self, frame: &Frame, decision: &Decision) {
         let plan = Plan::new(frame, decision);
         self.decider.tick(frame, decision, &plan);
+        self.fallbacks.tick(frame, decision);
         self.bounds.tick(frame, self.plan.as_ref(), &plan);
         self.obstacles(frame, decision, &plan);
         self.labels.tick(frame, &plan);
@@ -207,6 +211,7 @@ impl Monitor {
             metrics,
             collisions,
             outcomes: self.decider.outcomes(),
+            fallbacks: self.fallbacks.counts(),
             digest: String::new(),
         }
     }
@@ -220,6 +225,7 @@ impl Monitor {
         measures.extend(self.standstill.measures());
         measures.push(completed.at_least(1.0).gate());
         measures.extend(self.decider.measures());
+        measures.extend(self.fallbacks.measures());
         measures.extend(self.ttc.measures());
         measures.extend(self.motion.measures());
         measures.extend(self.bounds.measures());

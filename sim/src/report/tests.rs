@@ -38,6 +38,7 @@ fn row(scenario: &str, seed: u64, collisions: f64) -> SweepRow {
         ],
         collisions: Vec::new(),
         outcomes: Vec::new(),
+        fallbacks: Vec::new(),
         digest: format!("{seed:x}"),
     };
     SweepRow {

@@ -26,4 +26,4 @@ pub use record::{Controls, Event, EventKind, Header, LaneOutline, Record, TickRe
 pub use writer::TraceWriter;
 
 /// Version of the layout that this program writes, and the only one it reads.
-pub const FORMAT: u32 = 2;
+pub const FORMAT: u32 = 3;

@@ -354,6 +354,8 @@ fn decision(line: &ReferenceLine, s: f64, v: f64, time: f64) -> Decision {
             cause: StopCause::PullOver,
         }),
         outcome: Outcome::Normal,
+        fallback: None,
+        tasks: Vec::new(),
         pull_over: (time >= 8.0).then(|| PullOverTarget {
             position: line.to_cartesian(SlPoint { s: STOP_S, l: -2.4 }),
             theta: line.point(STOP_S).theta,
@@ -420,6 +422,7 @@ fn verdict() -> Verdict {
         ],
         collisions: Vec::new(),
         outcomes: vec![("normal".to_owned(), 210)],
+        fallbacks: Vec::new(),
         digest: "0123456789abcdef".to_owned(),
     }
 }

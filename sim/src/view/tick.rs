@@ -119,8 +119,8 @@ impl TickData {
                 .stop
                 .map(|stop| pools.texts.place(words::stop_cause(trace, stop.cause))),
             stop_at: stop.and_then(|stop| along(&decision.path, stop.distance, origin)),
-            outcome: pools.texts.place(words::outcome(decision.outcome).to_owned()),
-            normal: decision.outcome == corridor_decider::decision::Outcome::Normal,
+            outcome: pools.texts.place(outcome(trace, tick)),
+            normal: decision.outcome.is_planned(),
             pull_over: decision.pull_over.map(|target| {
                 pose(
                     Pose::new(target.position.x, target.position.y, target.theta),
@@ -133,6 +133,15 @@ impl TickData {
             },
             hash: tick.hash.clone(),
         }
+    }
+}
+
+/// How a tick ended, and why if not as planned.
+fn outcome(trace: &Trace, tick: &TickRecord) -> String {
+    let outcome = words::outcome(tick.decision.outcome);
+    match tick.decision.fallback {
+        Some(fallback) => format!("{outcome} ({})", words::fallback(trace, fallback)),
+        None => outcome.to_owned(),
     }
 }
 

@@ -96,6 +96,14 @@ impl Path {
         Self { leads_to_goal, ..self }
     }
 
+    /// Arc length at station `s`, going on straight beyond its ends.
+    pub fn distance_at(&self, s: f64) -> f64 {
+        let points = &self.points;
+        let above = points.partition_point(|p| p.s <= s).clamp(1, points.len() - 1);
+        let (a, b) = (&points[above - 1], &points[above]);
+        a.distance + (s - a.s) / (b.s - a.s) * (b.distance - a.distance)
+    }
+
     /// Station of its end, m.
     pub fn end_s(&self) -> f64 {
         self.points.last().map_or(0.0, |p| p.s)
@@ -160,9 +168,9 @@ fn is_cut_short(path: &Result<(f64, Path), Rejection>, whole: f64) -> bool {
 fn is_better(new: &(f64, Path), kept: &(f64, Path), goal: Goal) -> bool {
     let serves = (new.1.serves(goal), kept.1.serves(goal));
     if serves != (true, true) {
-        return serves.0 || (!serves.1 && new.1.end_s() + table::STEP >= kept.1.end_s());
+        return serves.0 || (!serves.1 && new.1.end_s() + STEP >= kept.1.end_s());
     }
-    let leads_farther = new.1.end_s() > kept.1.end_s() + table::STEP;
+    let leads_farther = new.1.end_s() > kept.1.end_s() + STEP;
     leads_farther || new.0 < kept.0 * WORTH_A_CHANGE.0 - WORTH_A_CHANGE.1
 }
 
@@ -184,7 +192,7 @@ fn best_of_bundle(
             continue;
         };
         let serves = path.1.serves(goal);
-        if best.as_ref().map_or(-1.0, |best| best.1.end_s()) + table::STEP < path.1.end_s() {
+        if best.as_ref().map_or(-1.0, |best| best.1.end_s()) + STEP < path.1.end_s() {
             best = Ok(path);
         }
         if serves {

@@ -19,6 +19,7 @@ mod pull_over;
 mod road;
 mod search;
 mod stations;
+mod task;
 #[cfg(test)]
 mod tests;
 
@@ -27,6 +28,7 @@ pub use config::{PathBoundsConfig, Quirks};
 pub use input::{ChangeLane, EgoFrenet, Input, Memory, ObstacleSl, PullOver, PullOverKind, PullOverPlace};
 pub use pull_over::PullOverRefusal;
 pub use stations::Station;
+pub use task::run;
 pub(crate) use stations::station;
 
 use crate::frame::ObstacleId;

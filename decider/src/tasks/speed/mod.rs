@@ -10,11 +10,11 @@ mod profile;
 mod rules;
 
 pub use overlap::{Claim, claims};
+pub(crate) use rules::stop_before;
 
-use super::path::Path;
-use super::scene::Scene;
-use crate::decision::{Stop, StopCause, TrajectoryPoint};
-use crate::frame::ObstacleId;
+use crate::context::Context;
+use crate::decision::StopCause;
+use crate::planner::{LinePlan, TaskError};
 use serde::{Deserialize, Serialize};
 
 /// Settings of the speed layer.
@@ -75,88 +75,20 @@ impl Default for SpeedConfig {
     }
 }
 
-/// A trajectory and what it slows down for.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Planned {
-    /// The trajectory, a tenth of a second apart.
-    pub trajectory: Vec<TrajectoryPoint>,
-    /// The constraint that holds the car back most, if one does.
-    pub stop: Option<Stop>,
-}
-
-/// What a plan has to know beside the scene and the path.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Purpose {
-    /// A place to stop at for its own sake.
-    pub stop_at: Option<Stop>,
-    /// What the last tick slowed down for.
-    pub before: Option<Stop>,
-    /// Whether what blocks the path may be passed through another lane, now or when that is free.
-    pub may_pull_out: bool,
-}
-
-/// Plans the speed along `path`.
-pub fn plan(scene: &Scene, path: &Path, purpose: Purpose) -> Planned {
-    let stop = nearest_stop(scene, path, purpose);
+/// Plans the speed along the chosen path.
+pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> {
+    let scene = &plan.scene;
+    let (Some(path), Some(stop)) = (plan.path(), plan.wall) else {
+        return Err(TaskError::NoPath);
+    };
     let claims = claims(scene, path);
     let envelope = limits::Envelope::new(scene, path);
-    let yielded_to = purpose.before.and_then(|stop| match stop.cause {
+    let yielded_to = context.stop.and_then(|stop| match stop.cause {
         StopCause::Yield(id) => Some(id),
         _ => None,
     });
-    profile::integrate(scene, path, &envelope, stop, &claims, yielded_to)
-}
-
-/// The first of the given stop, the path's blocker and the path's end.
-fn nearest_stop(scene: &Scene, path: &Path, purpose: Purpose) -> Stop {
-    let end = match path.blocked_by {
-        Some(id) => Stop {
-            distance: before_blocker(scene, path, id, purpose.may_pull_out),
-            cause: StopCause::Blocked(id),
-        },
-        None if ends_with_line(scene, path) => Stop {
-            distance: path.length(),
-            cause: StopCause::Destination,
-        },
-        None => Stop {
-            distance: path.length(),
-            cause: StopCause::PathEnd,
-        },
-    };
-    // A place chosen to stop at needs no gap beyond what its own search has kept.
-    purpose
-        .stop_at
-        .filter(|stop| stop.distance <= path.length())
-        .unwrap_or(end)
-}
-
-fn ends_with_line(scene: &Scene, path: &Path) -> bool {
-    use crate::reference_line::LineQuery;
-    path.end_s() + 2.0 > scene.line.length()
-}
-
-/// Where to stand before a blocker: the wanted gap if it can be kept in comfort, else what is left of it. Pulling
-/// out takes more room than standing.
-fn before_blocker(scene: &Scene, path: &Path, id: ObstacleId, may_pull_out: bool) -> f64 {
-    let config = &scene.config.speed;
-    let contact = scene.obstacle(id).map_or(path.length(), |obstacle| {
-        distance_at(path, obstacle.start_s - scene.vehicle.front_edge_to_center)
-    });
-    let contact = contact.min(path.length() + 1.0);
-    let gap = if may_pull_out {
-        config.pull_out_distance
-    } else {
-        config.stop_distance
-    };
-    rules::stop_before(config, scene.start.v, contact, gap)
-        .min(path.length())
-        .max(0.0)
-}
-
-/// Arc length along the path at station `s`, going on straight beyond its end.
-pub fn distance_at(path: &Path, s: f64) -> f64 {
-    let points = &path.points;
-    let above = points.partition_point(|p| p.s <= s).clamp(1, points.len() - 1);
-    let (a, b) = (&points[above - 1], &points[above]);
-    a.distance + (s - a.s) / (b.s - a.s) * (b.distance - a.distance)
+    let (speed, stop) = profile::integrate(scene, &envelope, stop, &claims, yielded_to);
+    plan.stop = stop;
+    plan.speed = Some(speed);
+    Ok(())
 }

@@ -1,6 +1,5 @@
 //! When and where moving obstacles will be on the path: the entries of an ST graph, in a simple form.
 
-use super::distance_at;
 use super::limits::is_within;
 use crate::frame::ObstacleId;
 use crate::tasks::path::Path;
@@ -126,8 +125,8 @@ fn occupancy(scene: &Scene, path: &Path, there: &TimedBox) -> Option<Occupied> {
     });
     meets.then(|| Occupied {
         t: there.t,
-        low: distance_at(path, start_s - vehicle.front_edge_to_center),
-        high: distance_at(path, end_s + vehicle.back_edge_to_center),
+        low: path.distance_at(start_s - vehicle.front_edge_to_center),
+        high: path.distance_at(end_s + vehicle.back_edge_to_center),
     })
 }
 

@@ -3,11 +3,10 @@
 use super::limits::Envelope;
 use super::overlap::Claim;
 use super::rules::{self, BRAKE_LATE, Motion};
-use super::{Planned, SpeedConfig};
-use crate::decision::{PathPoint, Stop, StopCause, TrajectoryPoint};
+use super::SpeedConfig;
+use crate::decision::{Stop, StopCause};
 use crate::frame::ObstacleId;
-use crate::geometry::{Pose, angle};
-use crate::tasks::path::Path;
+use crate::st_graph::{SpeedData, SpeedPoint};
 use crate::tasks::scene::Scene;
 
 /// Time between trajectory points, s.
@@ -59,12 +58,11 @@ enum Response {
 
 pub(super) fn integrate(
     scene: &Scene,
-    path: &Path,
     envelope: &Envelope,
     stop: Stop,
     claims: &[Claim],
     yielded_to: Option<ObstacleId>,
-) -> Planned {
+) -> (SpeedData, Option<Stop>) {
     let planner = Planner {
         scene,
         envelope,
@@ -89,10 +87,14 @@ pub(super) fn integrate(
         states = planner.run(claims, &responses, true);
     }
     let reason = planner.reason(claims, &responses, &states);
-    Planned {
-        trajectory: states.iter().map(|state| on_path(path, state)).collect(),
-        stop: reason,
-    }
+    let point = |state: &State| SpeedPoint {
+        t: state.t,
+        s: state.distance,
+        v: state.v,
+        a: state.a,
+        da: 0.0,
+    };
+    (SpeedData::new(states.iter().map(point).collect()), reason)
 }
 
 /// Something that is on the path and goes our way is followed; what stands on it or comes at us is yielded to.
@@ -282,28 +284,4 @@ fn meets_any(claims: &[Claim], states: &[State]) -> bool {
             .iter()
             .any(|state| state.v > STANDSTILL && hits(claim, state))
     })
-}
-
-/// The path's point at a distance, with the motion there. The end goes on straight.
-fn on_path(path: &Path, state: &State) -> TrajectoryPoint {
-    let points = &path.points;
-    let above = points
-        .partition_point(|p| p.distance <= state.distance)
-        .clamp(1, points.len() - 1);
-    let (a, b): (&PathPoint, &PathPoint) = (&points[above - 1], &points[above]);
-    let share = (state.distance - a.distance) / (b.distance - a.distance);
-    let mix = |x: f64, y: f64| x + (y - x) * share;
-    let turn = angle::difference(b.pose.theta, a.pose.theta);
-    TrajectoryPoint {
-        t: state.t,
-        distance: state.distance,
-        pose: Pose::new(
-            mix(a.pose.x, b.pose.x),
-            mix(a.pose.y, b.pose.y),
-            angle::wrap(a.pose.theta + turn * share),
-        ),
-        kappa: mix(a.kappa, b.kappa),
-        v: state.v,
-        a: state.a,
-    }
 }

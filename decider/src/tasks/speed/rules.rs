@@ -86,7 +86,7 @@ pub(super) fn release(a: f64) -> f64 {
 
 /// Where to stop before something that is `contact` metres ahead: `wanted` metres short of it where that can be done
 /// in comfort, else with what is left, but never less than the least distance.
-pub(super) fn stop_before(config: &SpeedConfig, v: f64, contact: f64, wanted: f64) -> f64 {
+pub(crate) fn stop_before(config: &SpeedConfig, v: f64, contact: f64, wanted: f64) -> f64 {
     let comfortable = stopping_distance(v, config.braking);
     (contact - wanted).max(comfortable.min(contact - config.least_stop_distance))
 }

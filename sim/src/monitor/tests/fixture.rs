@@ -260,6 +260,8 @@ pub(super) fn decision(bound: PathBound, x: f64) -> Decision {
         trajectory: (0..30).map(point).collect(),
         stop: None,
         outcome: Outcome::Normal,
+        fallback: None,
+        tasks: Vec::new(),
         pull_over: None,
     }
 }

@@ -1,0 +1,59 @@
+//! What each task is given and what it finds, in a few words.
+
+use super::plan::LinePlan;
+use super::task::TaskName;
+use crate::tasks::path_bounds::PathBound;
+use std::fmt::Write;
+
+impl TaskName {
+    /// What the task is given.
+    pub(super) fn input(self, plan: &LinePlan) -> String {
+        let scene = &plan.scene;
+        match self {
+            Self::LaneChange | Self::LaneBorrow => format!("{} moving obstacles", scene.moving.len()),
+            Self::PathReuse => String::from("the last path"),
+            Self::PathBounds => format!("{} obstacles, {} sides", scene.obstacles.len(), plan.borrow.len()),
+            Self::PiecewiseJerkPath => format!("{} bounds", plan.bounds.bounds.len()),
+            Self::PathAssessment => format!("{} paths", plan.candidates.iter().flatten().count()),
+            Self::PathDecider => format!("{} standing obstacles", scene.bodies.len()),
+            Self::RuleBasedStop | Self::Speed => {
+                plan.path()
+                    .map_or_else(|| String::from("no path"), |path| format!("a path of {:.1} m", path.length()))
+            }
+        }
+    }
+
+    /// What the task found.
+    pub(super) fn output(self, plan: &LinePlan) -> String {
+        match self {
+            Self::LaneChange => format!("cruises at {:.1} m/s", plan.scene.cruise_speed),
+            Self::PathReuse => String::from(if plan.last_path.is_some() { "offered" } else { "none" }),
+            Self::LaneBorrow => format!("{} sides", plan.borrow.len()),
+            Self::PathBounds => list(plan.bounds.bounds.iter().map(|bound: &PathBound| bound.label)),
+            Self::PiecewiseJerkPath => {
+                let found = plan.candidates.iter().flatten().filter(|found| found.is_ok());
+                format!("{} paths", found.count())
+            }
+            Self::PathAssessment => list(plan.label()),
+            Self::PathDecider => plan
+                .stop_before_blocker
+                .map_or_else(|| String::from("nothing blocks"), |distance| format!("a stop at {distance:.1} m")),
+            Self::RuleBasedStop => plan
+                .wall
+                .map_or_else(String::new, |wall| format!("a wall at {:.1} m", wall.distance)),
+            Self::Speed => plan
+                .speed
+                .as_ref()
+                .and_then(|speed| speed.points.last())
+                .map_or_else(String::new, |last| format!("{:.1} m in {:.1} s", last.s, last.t)),
+        }
+    }
+}
+
+fn list<T: std::fmt::Display>(items: impl IntoIterator<Item = T>) -> String {
+    items.into_iter().fold(String::new(), |mut text, item| {
+        let separator = if text.is_empty() { "" } else { ", " };
+        write!(text, "{separator}{item}").expect("writing into a text does not fail");
+        text
+    })
+}
