@@ -5,6 +5,7 @@ mod clock;
 pub mod closed_loop;
 pub mod decider;
 pub mod explain;
+pub mod faults;
 pub mod map_drawing;
 pub mod map_report;
 pub mod monitor;

@@ -1,6 +1,6 @@
 //! Everything about a run that is not the scenario: the decider, the physics, the period, a planted fault.
 
-use crate::decider::Fault;
+use crate::faults::{Failure, Fault};
 use crate::world::PhysicsConfig;
 use corridor_decider::config::Config;
 use serde::{Deserialize, Serialize};
@@ -17,6 +17,8 @@ pub struct Settings {
     pub tick: f64,
     /// A fault planted between the world and the decider.
     pub fault: Fault,
+    /// Parts that fail for a while.
+    pub failures: Vec<Failure>,
 }
 
 impl Default for Settings {
@@ -26,6 +28,7 @@ impl Default for Settings {
             physics: PhysicsConfig::default(),
             tick: 0.1,
             fault: Fault::None,
+            failures: Vec::new(),
         }
     }
 }

@@ -13,7 +13,7 @@ pub use blind::{context_failure, without_context};
 
 use crate::context::LastPath;
 use crate::decision::{Fallback, FallbackCause, Outcome, PathPoint, TrajectoryPoint};
-use crate::planner::LinePlan;
+use crate::planner::{LinePlan, Part};
 use crate::trajectory;
 
 /// What is driven in the end.
@@ -48,12 +48,17 @@ impl Driven {
 }
 
 /// What is driven where a plan along a line failed.
-pub fn along_line(plan: &LinePlan, last: Option<&LastPath>, cause: FallbackCause) -> Driven {
+pub fn along_line(
+    plan: &LinePlan,
+    last: Option<&LastPath>,
+    cause: FallbackCause,
+    fails: &dyn Fn(Part) -> bool,
+) -> Driven {
     let scene = &plan.scene;
     let fresh = plan.path().filter(|path| path.points.len() >= 2);
     let (rung, path) = match fresh {
         Some(path) => (None, Some(path.clone())),
-        None => match path::find(plan, last) {
+        None => match path::find(plan, last, fails) {
             Some((rung, path)) => (Some(rung), Some(path)),
             None => (None, None),
         },
@@ -67,7 +72,7 @@ pub fn along_line(plan: &LinePlan, last: Option<&LastPath>, cause: FallbackCause
         Outcome::PathFallback
     };
     let target = speed::target(plan, &path);
-    let (speed_rung, profile) = speed::stopping(scene.start.v, scene.start.a, scene.vehicle, target);
+    let (speed_rung, profile) = speed::stopping(&scene.start.motion(), scene.vehicle, target, fails);
     let mut points = path.points;
     // The gate of a fresh path did not ask whether the car can stop on it; the brakes say where that is.
     let needed = profile.points.last().map_or(0.0, |last| last.s);

@@ -8,7 +8,7 @@ use super::held_arc;
 use crate::context::LastPath;
 use crate::decision::{PathPoint, PathRung};
 use crate::geometry::{Quintic, angle};
-use crate::planner::LinePlan;
+use crate::planner::{LinePlan, Part};
 use crate::reference_line::LineQuery;
 use crate::tasks::path::{self, LineTable, Path, Profile};
 use crate::tasks::path_bounds::{Borrow, Label};
@@ -16,6 +16,12 @@ use crate::tasks::scene::Scene;
 
 /// Length that is left beyond the place where the hardest braking stops, m.
 const MARGIN: f64 = 5.0;
+
+/// An older path is not driven, s.
+const MAX_AGE: f64 = 0.5;
+
+/// A car farther than this from the line is not driving along it, m (the original's bound on fallback paths).
+const LARGEST_OFFSET: f64 = 20.0;
 
 /// Heading error above which a car is first turned along the line, rad.
 const ALIGNED: f64 = 0.05;
@@ -30,10 +36,15 @@ const LEAST_STRETCH: f64 = 0.1;
 const STEP: f64 = 1.0;
 
 /// The first source that passes its gate, `None` if none does.
-pub(super) fn find(plan: &LinePlan, last: Option<&LastPath>) -> Option<(PathRung, Path)> {
+pub(super) fn find(
+    plan: &LinePlan,
+    last: Option<&LastPath>,
+    fails: &dyn Fn(Part) -> bool,
+) -> Option<(PathRung, Path)> {
     let scene = &plan.scene;
     let passes = |path: &Path| path.length() >= least_length(scene);
-    let last = || last.and_then(|last| path::reuse(scene, &last.points));
+    let recent = last.filter(|last| scene.frame.time - last.time <= MAX_AGE);
+    let last = || recent.and_then(|last| path::reuse(scene, &last.points));
     let own = || self_lane(plan);
     let sources: [(PathRung, &dyn Fn() -> Option<Path>); 4] = [
         (PathRung::LastPath, &last),
@@ -43,6 +54,7 @@ pub(super) fn find(plan: &LinePlan, last: Option<&LastPath>) -> Option<(PathRung
     ];
     sources
         .into_iter()
+        .filter(|(rung, _)| !fails(Part::Path(*rung)))
         .find_map(|(rung, source)| Some((rung, source().filter(passes)?)))
 }
 
@@ -69,6 +81,10 @@ fn self_lane(plan: &LinePlan) -> Option<Path> {
 
 /// At the car's own distance from the line all along it: a parallel curve, not a copy shifted aside.
 fn offset_line(scene: &Scene) -> Option<Path> {
+    let is_on_line = scene.ego.s <= scene.line.length() && scene.ego.l.abs() <= LARGEST_OFFSET;
+    if !is_on_line {
+        return None;
+    }
     let reach = least_length(scene) + scene.start.v * TURN_IN.0 + TURN_IN.1;
     let table = LineTable::new(scene.line, scene.ego.s, scene.ego.s + reach);
     let start = scene.lateral.l;

@@ -2,7 +2,7 @@
 
 use super::plan::LinePlan;
 use super::stage;
-use super::task::TaskName;
+use super::task::Part;
 use crate::config::Config;
 use crate::context::{Context, LastPath, LastTrajectory};
 use crate::decision::{Candidate, Decision, FallbackCause, PullOverTarget};
@@ -33,12 +33,12 @@ impl Planner {
         self.decide_with_failures(frame, context, &|_| false)
     }
 
-    /// The same, with tasks that fail whatever they would find: to see what comes of it.
+    /// The same, with parts that fail whatever they would find: to see what comes of it.
     pub fn decide_with_failures(
         &self,
         frame: &Frame,
         context: &mut Context,
-        fails: &dyn Fn(TaskName) -> bool,
+        fails: &dyn Fn(Part) -> bool,
     ) -> Decision {
         let start = start_point(frame, context.last.as_ref());
         let decision = match fallback::context_failure(frame, &start, &self.vehicle) {
@@ -59,7 +59,7 @@ impl Planner {
         frame: &Frame,
         start: StartPoint,
         context: &mut Context,
-        fails: &dyn Fn(TaskName) -> bool,
+        fails: &dyn Fn(Part) -> bool,
     ) -> Decision {
         context.blind_since = None;
         let mut reports = Vec::new();
@@ -69,7 +69,7 @@ impl Planner {
             match stage::run(&self.config.tasks, &mut plan, &mut memory, fails) {
                 Ok(()) if trajectory::normal(&plan).is_ok() => {
                     *context = memory;
-                    return conclude(plan, context, None);
+                    return conclude(plan, context, None, fails);
                 }
                 _ => {
                     context.lane_change = memory.lane_change;
@@ -81,19 +81,25 @@ impl Planner {
         let mut plan = LinePlan::new(Scene::new(frame, 0, &self.vehicle, &self.config, start));
         plan.reports = reports;
         let result = stage::run(&self.config.tasks, &mut plan, context, fails);
-        conclude(plan, context, result.err().map(|(task, _)| FallbackCause::Task(task)))
+        let failed = result.err().map(|(task, _)| FallbackCause::Task(task));
+        conclude(plan, context, failed, fails)
     }
 }
 
 /// From a plan to a decision, with what the next tick has to know.
-fn conclude(plan: LinePlan, context: &mut Context, failed: Option<FallbackCause>) -> Decision {
+fn conclude(
+    plan: LinePlan,
+    context: &mut Context,
+    failed: Option<FallbackCause>,
+    fails: &dyn Fn(Part) -> bool,
+) -> Decision {
     let planned = match failed {
         Some(cause) => Err(cause),
         None => trajectory::normal(&plan).map_err(|_| FallbackCause::Trajectory),
     };
     let driven = match planned {
         Ok(trajectory) => Driven::planned(&plan, trajectory),
-        Err(cause) => fallback::along_line(&plan, context.path.as_ref(), cause),
+        Err(cause) => fallback::along_line(&plan, context.path.as_ref(), cause, fails),
     };
     remember(&plan, context);
     let label = plan.label();

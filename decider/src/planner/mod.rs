@@ -9,4 +9,4 @@ mod task;
 pub use lane_follow::Planner;
 pub use plan::LinePlan;
 pub use stage::LANE_FOLLOW;
-pub use task::{TaskError, TaskName};
+pub use task::{Part, TaskError, TaskName};

@@ -1,7 +1,7 @@
 //! The stage: tasks run in the order of a list, up to the first that fails.
 
 use super::plan::LinePlan;
-use super::task::{TaskError, TaskName};
+use super::task::{Part, TaskError, TaskName};
 use crate::context::Context;
 use crate::decision::TaskReport;
 
@@ -26,11 +26,11 @@ pub(super) fn run(
     tasks: &[TaskName],
     plan: &mut LinePlan,
     context: &mut Context,
-    fails: &dyn Fn(TaskName) -> bool,
+    fails: &dyn Fn(Part) -> bool,
 ) -> Result<(), (TaskName, TaskError)> {
     for task in tasks {
         let input = task.input(plan);
-        let result = if fails(*task) {
+        let result = if fails(Part::Task(*task)) {
             Err(TaskError::OnRequest)
         } else {
             task.run()(plan, context)

@@ -2,6 +2,7 @@
 
 use super::plan::LinePlan;
 use crate::context::Context;
+use crate::decision::{PathRung, SpeedRung};
 use crate::tasks::path_bounds::PathBoundsError;
 use crate::tasks::{
     lane_borrow, lane_change, path, path_assessment, path_bounds, path_decider, path_reuse, rule_based_stop, speed,
@@ -31,6 +32,17 @@ pub enum TaskName {
     RuleBasedStop,
     /// Speed along the path by rules.
     Speed,
+}
+
+/// A part of the planner that can be made to fail, to see what comes of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// A task of the stage.
+    Task(TaskName),
+    /// A source of a path for a tick whose own failed.
+    Path(PathRung),
+    /// A source of a speed for a tick whose own failed.
+    Speed(SpeedRung),
 }
 
 /// What a task is: it reads and extends the plan, and remembers in the context.

@@ -43,8 +43,7 @@ pub(super) fn assess(
     let mut points = to_points(table, profile);
     let limit = scene.vehicle.max_kappa() * scene.config.path.curvature_share;
     let bends = |p: &PathPoint| {
-        let excess = START_EXCESS * (1.0 - p.distance / START_LENGTH).max(0.0);
-        p.kappa.abs() > limit + excess || !p.kappa.is_finite()
+        p.kappa.abs() > limit + start_excess(p.distance) || !p.kappa.is_finite()
     };
     if let Some(k) = (1..points.len()).find(|k| bends(&points[*k])) {
         // A road that cannot be driven on is driven as far as it can.
@@ -58,6 +57,11 @@ pub(super) fn assess(
         return Err(Rejection::LeavesRoad);
     }
     until_contact(scene, points)
+}
+
+/// Curvature above the limit that is allowed at a distance from the start, 1/m.
+pub(super) fn start_excess(distance: f64) -> f64 {
+    START_EXCESS * (1.0 - distance / START_LENGTH).max(0.0)
 }
 
 /// Whether a corner of the body leaves the road surface where it has not been off it from the start. Front and rear
