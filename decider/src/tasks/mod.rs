@@ -7,4 +7,5 @@ pub mod path;
 pub mod path_bounds;
 pub mod scene;
 pub mod speed;
+pub mod speed_heuristic;
 pub mod start_point;
