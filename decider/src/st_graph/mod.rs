@@ -44,21 +44,45 @@ pub fn cross(origin: StPoint, a: StPoint, b: StPoint) -> f64 {
     (a.t - origin.t) * (b.s - origin.s) - (a.s - origin.s) * (b.t - origin.t)
 }
 
+/// Speed to drive where the task names none, m/s (the original's `default_cruise_speed`).
+const DEFAULT_CRUISE_SPEED: f64 = 5.0;
+
+/// An obstacle on the path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StObstacle {
+    /// What it occupies.
+    pub boundary: StBoundary,
+    /// Whether distance is kept to it beyond not touching it: so it is with bodies for which no stop has been
+    /// decided; fences and zones, and what one stops for, have their distance in their boundary.
+    pub repels: bool,
+}
+
 /// What the speed along a path is planned from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StGraphData {
-    /// Boundaries of all obstacles on the path.
-    pub boundaries: Vec<StBoundary>,
+    /// The obstacles on the path, in a stable order.
+    pub obstacles: Vec<StObstacle>,
     /// Speed at the start, m/s.
     pub init_v: f64,
     /// Acceleration at the start, m/s².
     pub init_a: f64,
     /// The speed limit along the path.
     pub speed_limit: SpeedLimit,
-    /// Speed to drive where nothing limits it, m/s.
+    /// Speed asked for where nothing limits it, m/s; not positive for none in particular.
     pub cruise_speed: f64,
     /// Length of the path, m.
     pub path_length: f64,
     /// How far ahead the speed is planned, s.
     pub total_time: f64,
+}
+
+impl StGraphData {
+    /// Speed to drive where nothing limits it, m/s.
+    pub fn cruise_speed(&self) -> f64 {
+        if self.cruise_speed > 0.0 {
+            self.cruise_speed
+        } else {
+            DEFAULT_CRUISE_SPEED
+        }
+    }
 }

@@ -11,4 +11,5 @@ pub mod path_reuse;
 pub mod rule_based_stop;
 pub mod scene;
 pub mod speed;
+pub mod speed_heuristic;
 pub mod start_point;
