@@ -4,12 +4,13 @@
 //! rebuilds it.
 
 use crate::decision::{PathPoint, Stop, TrajectoryPoint};
+use crate::piecewise_jerk::Riccati;
 use crate::tasks::lane_borrow::BorrowState;
 use crate::tasks::lane_change::LaneChangeState;
 use crate::tasks::path_bounds::{Label, Memory};
 
 /// The decider's memory. Starts empty.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Context {
     /// Of the path bounds.
     pub bounds: Memory,
@@ -19,6 +20,10 @@ pub struct Context {
     pub lane_change: LaneChangeState,
     /// What the last tick slowed down for.
     pub stop: Option<Stop>,
+    /// What the path optimiser knows of each bound since the last tick.
+    pub path_solvers: Vec<(Label, Riccati)>,
+    /// What the speed optimiser knows since the last tick.
+    pub speed_solver: Riccati,
     /// The path of the last tick.
     pub path: Option<LastPath>,
     /// The trajectory of the last tick and the time it starts at.
@@ -45,4 +50,16 @@ pub struct LastTrajectory {
     pub time: f64,
     /// Its points.
     pub points: Vec<TrajectoryPoint>,
+}
+
+impl Context {
+    /// What the path optimiser knows of one kind of bound.
+    pub fn path_solver(&mut self, label: Label) -> &mut Riccati {
+        let known = self.path_solvers.iter().position(|(of, _)| *of == label);
+        let place = known.unwrap_or_else(|| {
+            self.path_solvers.push((label, Riccati::new()));
+            self.path_solvers.len() - 1
+        });
+        &mut self.path_solvers[place].1
+    }
 }

@@ -113,6 +113,10 @@ pub enum Assessment {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rejection {
+    /// No curve that the car can follow stays inside the bound.
+    Infeasible,
+    /// The optimiser gave up.
+    NotSolved,
     /// It leaves the bound.
     LeavesBound,
     /// A corner of the body leaves the road.

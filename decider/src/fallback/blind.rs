@@ -72,7 +72,7 @@ pub fn without_context(
 
 /// The end of the chain: as hard as it can, the wheels as they are.
 pub(super) fn brake_on_arc(start: &StartPoint, vehicle: &VehicleParams) -> Vec<TrajectoryPoint> {
-    let (_, profile) = speed::stopping(start.v, start.a, vehicle, None);
+    let (_, profile) = speed::stopping(start, vehicle, None, &|_| false);
     trajectory::on(&profile, |distance| (held_arc::pose(start, distance), start.kappa))
 }
 
@@ -100,12 +100,14 @@ fn stop_along(
     if is_localised && !is_near(&now, frame) {
         return None;
     }
-    let (v, a) = if is_localised {
-        (frame.ego.v.max(0.0), frame.ego.a)
-    } else {
-        (now.v, now.a)
+    let planned = StartPoint {
+        pose: now.pose,
+        kappa: now.kappa,
+        v: now.v,
+        a: now.a,
     };
-    let (rung, profile) = speed::stopping(v, a, vehicle, None);
+    let start = if is_localised { StartPoint::measured(frame) } else { planned };
+    let (rung, profile) = speed::stopping(&start, vehicle, None, &|_| false);
     let at = |distance| along(&last.points, now.distance + distance);
     Some((rung, trajectory::on(&profile, at)))
 }

@@ -8,6 +8,7 @@ mod blind;
 mod held_arc;
 mod path;
 mod speed;
+mod speed_profile;
 
 pub use blind::{context_failure, without_context};
 
@@ -72,7 +73,7 @@ pub fn along_line(
         Outcome::PathFallback
     };
     let target = speed::target(plan, &path);
-    let (speed_rung, profile) = speed::stopping(&scene.start.motion(), scene.vehicle, target, fails);
+    let (speed_rung, profile) = speed::stopping(&scene.start, scene.vehicle, Some(target), fails);
     let mut points = path.points;
     // The gate of a fresh path did not ask whether the car can stop on it; the brakes say where that is.
     let needed = profile.points.last().map_or(0.0, |last| last.s);

@@ -1,28 +1,117 @@
 //! The ladder of speed profiles that only stop, gentlest first.
+//!
+//! The original minimises the way to standstill within 3 s, which a car faster than 13.5 m/s cannot do, brakes as hard as
+//! the car can for whatever reason it fell back, and ends in constant braking that begins with a jolt. Here the horizon
+//! is as long as the stop takes, braking is as hard as the way that is left asks for, and every profile ends at rest.
 
+use super::speed_profile;
 use crate::decision::SpeedRung;
-use crate::planner::LinePlan;
-use crate::st_graph::{SpeedData, SpeedPoint};
+use crate::piecewise_jerk::{FallbackSpeedProblem, Riccati, Solver, State};
+use crate::planner::{LinePlan, Part};
+use crate::st_graph::SpeedData;
 use crate::tasks::path::Path;
+use crate::tasks::start_point::StartPoint;
 use crate::vehicle::VehicleParams;
 
-/// Where a stop on a path has to end at the latest, m along it.
-pub(super) fn target(plan: &LinePlan, path: &Path) -> Option<f64> {
+/// Braking without need for more, m/s².
+const COMFORTABLE: f64 = 2.5;
+
+/// How much harder than the way that is left asks for one brakes, for the time that it takes to brake at all.
+const MARGIN: f64 = 1.2;
+
+/// Jerk of the usual ladder and of an emergency, m/s³: down, up.
+const JERK: (f64, f64) = (-4.0, 2.0);
+const EMERGENCY_JERK: (f64, f64) = (-30.0, 15.0);
+
+/// Time between two knots, s, and the shortest horizon, s.
+const STEP: f64 = 0.1;
+const LEAST_TIME: f64 = 3.0;
+
+/// Time beyond that of constant braking that a stop takes: braking has to rise and to fade, s.
+const RAMPS: f64 = 2.5;
+
+/// Constant braking of the last rung, m/s² (the original's `slowdown_profile_deceleration`).
+const CONSTANT: f64 = -4.0;
+
+/// Slower than this, and not speeding up, a car stands, m/s.
+const STANDS: f64 = 0.01;
+
+/// Where a stop on a path has to end at the latest, m along it: at the wall, before what will be there, or at its end.
+pub(super) fn target(plan: &LinePlan, path: &Path) -> f64 {
     let wall = plan.wall.map_or(path.length(), |wall| wall.distance);
-    Some(wall.min(path.length()))
+    let ahead = plan.boundaries.iter().map(|(_, boundary)| boundary.min_s());
+    ahead
+        .filter(|s| *s >= 0.0)
+        .fold(wall.min(path.length()), f64::min)
+        .max(0.0)
 }
 
-/// A profile from `v`, `a` to a standstill.
-pub(super) fn stopping(v: f64, a: f64, vehicle: &VehicleParams, _target: Option<f64>) -> (SpeedRung, SpeedData) {
-    let (mut v, mut a, mut s) = (v, a, 0.0);
-    let points = (0..=80_u32).map(|k| {
-        let point = SpeedPoint { t: f64::from(k) * 0.1, s, v, a, da: 0.0 };
-        a = (a - 2.0).max(vehicle.max_deceleration);
-        let next = (v + a * 0.1).max(0.0);
-        if next <= 0.0 { a = 0.0; }
-        s += f64::midpoint(v, next) * 0.1;
-        v = next;
-        point
-    });
-    (SpeedRung::Ramp, SpeedData::new(points.collect()))
+/// A profile from the start point to a standstill, before `target` if that can be.
+pub(super) fn stopping(
+    start: &StartPoint,
+    vehicle: &VehicleParams,
+    target: Option<f64>,
+    fails: &dyn Fn(Part) -> bool,
+) -> (SpeedRung, SpeedData) {
+    if start.v <= STANDS && start.a <= 0.0 {
+        return (SpeedRung::Optimised, speed_profile::standstill());
+    }
+    let rungs = [
+        (SpeedRung::Optimised, JERK, target),
+        (SpeedRung::EmergencyJerk, EMERGENCY_JERK, target),
+        (SpeedRung::EmergencyJerk, EMERGENCY_JERK, None),
+    ];
+    let works = |rung: SpeedRung| !fails(Part::Speed(rung));
+    let optimum = rungs
+        .into_iter()
+        .filter(|(rung, ..)| works(*rung))
+        .find_map(|(rung, jerk, target)| Some((rung, optimised(start, vehicle, jerk, target)?)));
+    optimum.unwrap_or_else(|| {
+        if works(SpeedRung::Ramp) {
+            (SpeedRung::Ramp, speed_profile::ramp(start.v, start.a, vehicle.max_deceleration, JERK))
+        } else {
+            (SpeedRung::ConstantDeceleration, speed_profile::constant_deceleration(start.v, CONSTANT))
+        }
+    })
+}
+
+/// The shortest stop, braking no harder than needed.
+fn optimised(
+    start: &StartPoint,
+    vehicle: &VehicleParams,
+    jerk: (f64, f64),
+    target: Option<f64>,
+) -> Option<SpeedData> {
+    let braking = braking(start.v, vehicle, target);
+    let duration = (start.v / braking + RAMPS).max(LEAST_TIME);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few seconds")]
+    let knots = (duration / STEP).ceil() as usize + 1;
+    let problem = FallbackSpeedProblem {
+        knots,
+        delta_t: STEP,
+        initial: State {
+            x: 0.0,
+            dx: start.v,
+            ddx: start.a,
+        },
+        stop_distance: 0.0,
+        s: (0.0, target.unwrap_or(f64::INFINITY)),
+        v: (0.0, f64::INFINITY),
+        a: (-braking, vehicle.max_acceleration),
+        jerk,
+    };
+    let mut problem = problem.to_problem();
+    problem.admit_initial_state();
+    let last = knots - 1;
+    problem.dx[last] = (0.0, 0.0);
+    problem.ddx[last] = (0.0, 0.0);
+    let solution = Riccati::new().solve(&problem).ok()?;
+    Some(speed_profile::extract(STEP, &solution.x, &solution.dx, &solution.ddx))
+}
+
+/// How hard one has to brake, m/s², positive.
+fn braking(v: f64, vehicle: &VehicleParams, target: Option<f64>) -> f64 {
+    let hardest = -vehicle.max_deceleration;
+    let needed = target.map_or(hardest, |way| MARGIN * v * v / (2.0 * way.max(f64::EPSILON)));
+    needed.clamp(COMFORTABLE.min(hardest), hardest)
 }

@@ -4,7 +4,8 @@ use crate::decision::{Assessment, Rejection, Stop, TaskReport};
 use crate::tasks::path::Path;
 use crate::tasks::path_bounds::{Borrow, Label, PathBounds};
 use crate::tasks::scene::Scene;
-use crate::st_graph::SpeedData;
+use crate::frame::ObstacleId;
+use crate::st_graph::{SpeedData, StBoundary};
 use crate::tasks::object_decision::ObjectDecision;
 use crate::context::LastPath;
 
@@ -34,6 +35,8 @@ pub struct LinePlan<'a> {
     pub stop_before_blocker: Option<f64>,
     /// Where the car would stand on the chosen path (rule-based stop).
     pub wall: Option<Stop>,
+    /// What moving obstacles will occupy of the chosen path (speed bounds).
+    pub boundaries: Vec<(ObstacleId, StBoundary)>,
     /// Why the car slows down (speed).
     pub stop: Option<Stop>,
     /// Speed along the chosen path (speed).
@@ -50,6 +53,7 @@ impl<'a> LinePlan<'a> {
             scene,
             last_path: None,
             stop_before_blocker: None,
+            boundaries: Vec::new(),
             borrow: Vec::new(),
             bounds: PathBounds::default(),
             candidates: Vec::new(),

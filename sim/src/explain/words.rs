@@ -27,6 +27,10 @@ pub(crate) fn assessment(trace: &Trace, assessment: Assessment) -> String {
     match assessment {
         Assessment::Chosen => "chosen".to_owned(),
         Assessment::Drivable { reach } => format!("drivable for {reach:.1} m, another was preferred"),
+        Assessment::NoPath(Rejection::Infeasible) => {
+            "no path: no curve that the car can follow stays inside".to_owned()
+        }
+        Assessment::NoPath(Rejection::NotSolved) => "no path: the optimiser gave up".to_owned(),
         Assessment::NoPath(Rejection::LeavesBound) => "no path: it leaves the bound".to_owned(),
         Assessment::NoPath(Rejection::LeavesRoad) => "no path: the body leaves the road".to_owned(),
         Assessment::NoPath(Rejection::Curvature) => "no path: it bends more than the steering can".to_owned(),

@@ -3,6 +3,7 @@
 use super::{Goal, LineTable, Path, finish, plan as plan_in, reuse};
 use crate::context::{Context, LastPath};
 use crate::decision::Rejection;
+use crate::piecewise_jerk::Riccati;
 use crate::planner::{LinePlan, TaskError};
 use crate::reference_line::LineQuery;
 use crate::tasks::path_assessment::{in_order, is_borrowed, is_own_lane};
@@ -26,7 +27,8 @@ pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> 
             break;
         }
         let last = plan.last_path.as_ref().filter(|last| last.label == bound.label);
-        let candidate = find(scene, &table, bound, goal(scene, context, bound.label), last);
+        let goal = goal(scene, context, bound.label);
+        let candidate = find(scene, &table, bound, goal, last, context.path_solver(bound.label));
         let settles = candidate.as_ref().is_ok_and(|path| settles(bound.label, path));
         plan.candidates[place] = Some(candidate);
         if settles {
@@ -58,9 +60,10 @@ fn find(
     bound: &PathBound,
     goal: Goal,
     last: Option<&LastPath>,
+    solver: &mut Riccati,
 ) -> Result<Path, Rejection> {
     let on = last.filter(|last| super::is_on(scene, &last.points));
-    let new = plan_in(scene, table, bound, goal, on.map(|last| &last.points[..]));
+    let new = plan_in(scene, table, bound, goal, on.map(|last| &last.points[..]), solver);
     if new.as_ref().is_ok_and(|path| path.serves(goal)) {
         return new.map(|path| path.leading_to(goal));
     }

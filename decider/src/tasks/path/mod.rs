@@ -9,9 +9,9 @@ mod assess;
 mod bundle;
 mod candidates;
 mod corridor;
+mod optimise;
 mod profile;
 mod reuse;
-mod smooth;
 mod table;
 
 pub use candidates::run;
@@ -25,6 +25,7 @@ use super::path_bounds::PathBound;
 use super::scene::Scene;
 use crate::decision::{PathPoint, Rejection};
 use crate::frame::ObstacleId;
+use crate::piecewise_jerk::Riccati;
 use corridor::Corridor;
 use serde::{Deserialize, Serialize};
 
@@ -129,6 +130,7 @@ pub fn plan(
     bound: &PathBound,
     goal: Goal,
     last: Option<&[PathPoint]>,
+    solver: &mut Riccati,
 ) -> Result<Path, Rejection> {
     let corridor = Corridor::new(scene, table, bound, goal, last).ok_or(Rejection::TooShort)?;
     let assess_in = |corridor: &Corridor, profile: Profile| {
@@ -137,9 +139,9 @@ pub fn plan(
     };
     let assess = |profile| assess_in(&corridor, profile);
     let whole = table.rows[corridor.len() - 1].s;
-    let mut smoothed = smooth::solve(&corridor).and_then(assess);
+    let mut smoothed = optimise::solve(scene, table, &corridor, solver).and_then(assess);
     if is_cut_short(&smoothed, whole) {
-        smoothed = smooth::solve(&corridor.rounding(table))
+        smoothed = optimise::solve(scene, table, &corridor.rounding(table), solver)
             .and_then(assess)
             .or(smoothed);
     }
