@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests are tests")]
 
+mod qp;
+
 use serde_json::Value;
 use std::io::Read;
 use std::path::{Path, PathBuf};

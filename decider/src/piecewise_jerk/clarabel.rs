@@ -9,22 +9,34 @@ use clarabel::solver::{
     SupportedConeT::ZeroConeT,
 };
 
-/// How exactly optimality is asked for: two digits beyond the solver's default, so that curves agree to a micrometre.
+/// How exactly optimality is asked for unless somebody says otherwise: two digits beyond the solver's own default, so
+/// that curves agree to micrometres.
 const TOLERANCE: f64 = 1e-10;
 
 /// How far a value may lie outside its limits before the answer counts as none, relative to the value.
 const ACCEPTED_VIOLATION: f64 = 1e-6;
 
 /// The general solver. It remembers nothing.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Clarabel;
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clarabel {
+    /// Of the duality gap and of all limits, absolute and relative.
+    pub tolerance: f64,
+}
+
+impl Default for Clarabel {
+    fn default() -> Self {
+        Self { tolerance: TOLERANCE }
+    }
+}
 
 impl Solver for Clarabel {
     fn solve(&mut self, problem: &Problem) -> Result<Solution, SolveError> {
         problem.validate()?;
         let model = Model::new(problem);
         let not_solved = |reason: String| SolveError::NotSolved { reason };
-        let mut solver = model.solver().map_err(|error| not_solved(error.to_string()))?;
+        let mut solver = model
+            .solver(self.tolerance)
+            .map_err(|error| not_solved(error.to_string()))?;
         solver.solve();
         match solver.solution.status {
             SolverStatus::Solved | SolverStatus::AlmostSolved => {}
@@ -109,7 +121,7 @@ impl Model {
         model
     }
 
-    fn solver(self) -> Result<DefaultSolver<f64>, clarabel::solver::SolverError> {
+    fn solver(self, tolerance: f64) -> Result<DefaultSolver<f64>, clarabel::solver::SolverError> {
         let (columns, rows) = (3 * self.knots, self.bounds.len());
         let cones: [SupportedConeT<f64>; 2] = [
             ZeroConeT(self.equalities),
@@ -117,9 +129,9 @@ impl Model {
         ];
         let settings = DefaultSettings {
             verbose: false,
-            tol_gap_abs: TOLERANCE,
-            tol_gap_rel: TOLERANCE,
-            tol_feas: TOLERANCE,
+            tol_gap_abs: tolerance,
+            tol_gap_rel: tolerance,
+            tol_feas: tolerance,
             ..DefaultSettings::default()
         };
         DefaultSolver::new(

@@ -71,3 +71,14 @@ pub enum SolveError {
         reason: String,
     },
 }
+
+impl SolveError {
+    /// Whether it is certain that no curve lies within the limits, be it that limits are the wrong way round.
+    pub fn is_infeasible(&self) -> bool {
+        match self {
+            Self::Infeasible => true,
+            Self::Invalid(ProblemError::Limits { low, high, .. }) => low > high,
+            Self::Invalid(_) | Self::NotSolved { .. } => false,
+        }
+    }
+}

@@ -242,6 +242,11 @@ impl Problem {
             + self.cost.constant
     }
 
+    /// The cost of a solution of this problem or of another with as many knots.
+    pub fn cost_of_solution(&self, solution: &Solution) -> f64 {
+        self.cost_of([&solution.x, &solution.dx, &solution.ddx], &solution.dddx)
+    }
+
     /// How far the worst value lies outside its limits, each in its own unit.
     pub fn violation(&self, solution: &Solution) -> f64 {
         let pairs = [

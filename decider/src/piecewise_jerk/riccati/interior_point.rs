@@ -14,6 +14,10 @@ const STEP_SHARE: f64 = 0.995;
 /// Slacks at the start, as a share of what the first guess violates or of the room between limits.
 const FIRST_SLACK: f64 = 0.1;
 
+/// How far apart limits that coincide are taken to be, in the problem's own units: a method that goes through the inside
+/// needs one. The touched limits that are read off in the end are exact again.
+const LEAST_ROOM: f64 = 1e-6;
+
 /// The least first slack, in the units of stages, where neither is of any size.
 const LEAST_FIRST_SLACK: f64 = 1e-6;
 
@@ -133,8 +137,7 @@ impl Side {
         let mut fastest: Lanes = [0.0; 4];
         for i in 0..self.slack.len() {
             for k in 0..4 {
-                let (slack, multiplier, inverse) =
-                    (self.slack[i][k], self.multiplier[i][k], self.inverse[i][k]);
+                let (multiplier, inverse) = (self.multiplier[i][k], self.inverse[i][k]);
                 let slack_step = self.exists[i][k] * (sign * changes[i][k] + self.residual[i][k]);
                 let multiplier_step =
                     (target - self.correction[i][k] - multiplier * slack_step) * inverse - multiplier;
@@ -244,8 +247,8 @@ impl InteriorPoint {
     /// Residuals, gradient of the cost, and the matrix.
     fn prepare(&mut self, stages: &Stages) {
         let values = &self.values;
-        let low = self.low.prepare(|i, k| values[i][k] - stages.low[i][k]);
-        let high = self.high.prepare(|i, k| stages.high[i][k] - values[i][k]);
+        let low = self.low.prepare(|i, k| above_low(stages, values, i, k));
+        let high = self.high.prepare(|i, k| below_high(stages, values, i, k));
         self.feasible = (0..4).all(|k| low[k].max(high[k]) <= 1e-10 * stages.scale[k]);
         for i in 0..self.values.len() {
             for k in 0..4 {
@@ -301,6 +304,20 @@ impl InteriorPoint {
         let at = |i, k| i8::from(self.high.is_closing(i, k)) - i8::from(self.low.is_closing(i, k));
         touched.extend((0..self.values.len()).map(|i| std::array::from_fn(|k| at(i, k))));
     }
+}
+
+/// How much limits of this stage and lane are moved apart.
+fn widening(stages: &Stages, i: usize, k: usize) -> f64 {
+    let room = stages.high[i][k] - stages.low[i][k];
+    (0.5 * (LEAST_ROOM * stages.scale[k] - room)).max(0.0)
+}
+
+fn above_low(stages: &Stages, values: &[Lanes], i: usize, k: usize) -> f64 {
+    values[i][k] - stages.low[i][k] + widening(stages, i, k)
+}
+
+fn below_high(stages: &Stages, values: &[Lanes], i: usize, k: usize) -> f64 {
+    stages.high[i][k] - values[i][k] + widening(stages, i, k)
 }
 
 /// The least slack per lane to start with.

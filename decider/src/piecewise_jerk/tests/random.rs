@@ -1,8 +1,8 @@
 //! Random problems of the three kinds, as a planner would pose them: some without a solution.
 
 use crate::piecewise_jerk::{
-    FallbackSpeedProblem, JerkCoupling, Limits, PathProblem, PathWeights, Problem, SpeedProblem, SpeedWeights,
-    State, Term,
+    FallbackSpeedProblem, JerkCoupling, Limits, PathProblem, PathWeights, Problem, SpeedProblem,
+    SpeedWeights, State, Term,
 };
 
 /// A stream of numbers that is the same everywhere (Steele, Lea and Flood 2014: `SplitMix64`).
@@ -53,7 +53,11 @@ pub(super) fn path(draw: &mut Draw) -> PathProblem {
     }
     let (bend, change) = (draw.between(-0.03, 0.03), draw.between(-0.03, 0.03));
     let kappa = |i: usize| bend + (change - bend) * (i as f64 / n as f64);
-    let end = if draw.happens(0.2) { draw.between(-half, half) } else { 0.0 };
+    let end = if draw.happens(0.2) {
+        draw.between(-half, half)
+    } else {
+        0.0
+    };
     PathProblem {
         delta_s: 0.5,
         initial: State {
@@ -69,8 +73,15 @@ pub(super) fn path(draw: &mut Draw) -> PathProblem {
             dl: 20.0 * (speed * speed).max(5.0),
             ..PathWeights::default()
         },
-        l_reference: if end == 0.0 { Vec::new() } else { vec![Term::new(10.0, end); n] },
-        end_reference: State { x: end, ..State::default() },
+        l_reference: if end == 0.0 {
+            Vec::new()
+        } else {
+            vec![Term::new(10.0, end); n]
+        },
+        end_reference: State {
+            x: end,
+            ..State::default()
+        },
         coupling: JerkCoupling::Symmetric,
     }
 }
@@ -100,17 +111,30 @@ pub(super) fn speed(draw: &mut Draw) -> SpeedProblem {
             knots.for_each(|(i, (low, high))| *low = (pace * time(i - since)).min(*high - 1.0));
         }
     }
-    let (limit, later) = (draw.between(0.9, 1.5) * v0 + 2.0, draw.between(0.7, 1.3) * v0 + 2.0);
+    let (limit, later) = (
+        draw.between(0.9, 1.5) * v0 + 2.0,
+        draw.between(0.7, 1.3) * v0 + 2.0,
+    );
     let cruise = draw.between(3.0, 16.0);
     let bend = draw.between(0.0, 0.05) * f64::from(u8::from(draw.happens(0.4)));
     SpeedProblem {
         delta_t: delta,
-        initial: State { x: 0.0, dx: v0, ddx: draw.between(-2.0, 1.0) },
-        v: (0..n).map(|i| (0.0, if time(i) < 3.0 { limit } else { later })).collect(),
+        initial: State {
+            x: 0.0,
+            dx: v0,
+            ddx: draw.between(-2.0, 1.0),
+        },
+        v: (0..n)
+            .map(|i| (0.0, if time(i) < 3.0 { limit } else { later }))
+            .collect(),
         a: (-6.0, 2.0),
         jerk: (-4.0, 2.0),
         weights: SpeedWeights::default(),
-        s_ref: s.iter().enumerate().map(|(i, (low, high))| (cruise * time(i)).min(*high).max(*low)).collect(),
+        s_ref: s
+            .iter()
+            .enumerate()
+            .map(|(i, (low, high))| (cruise * time(i)).min(*high).max(*low))
+            .collect(),
         v_ref: cruise,
         kappa: (0..n).map(|i| bend * (i % 40) as f64 / 40.0).collect(),
         s,
