@@ -11,6 +11,7 @@ mod columns;
 pub mod config;
 pub mod context;
 pub mod decision;
+pub mod fallback;
 pub mod frame;
 pub mod geometry;
 pub mod hd_map;
