@@ -5,12 +5,16 @@
 //! plan with at all, the car stops along the trajectory of the tick before. Each of these says so in the decision.
 
 mod blind;
+mod braking;
 mod held_arc;
 mod path;
 mod speed;
-mod speed_profile;
+pub mod speed_profile;
+#[cfg(test)]
+mod tests;
 
 pub use blind::{context_failure, without_context};
+pub use braking::{BrakingLimits, braking_profile};
 
 use crate::context::LastPath;
 use crate::decision::{Fallback, FallbackCause, Outcome, PathPoint, TrajectoryPoint};

@@ -4,7 +4,7 @@
 //! the car can for whatever reason it fell back, and ends in constant braking that begins with a jolt. Here the horizon
 //! is as long as the stop takes, braking is as hard as the way that is left asks for, and every profile ends at rest.
 
-use super::speed_profile;
+use super::{BrakingLimits, braking_profile, speed_profile};
 use crate::decision::SpeedRung;
 use crate::piecewise_jerk::{FallbackSpeedProblem, Riccati, Solver, State};
 use crate::planner::{LinePlan, Part};
@@ -68,9 +68,11 @@ pub(super) fn stopping(
         .find_map(|(rung, jerk, target)| Some((rung, optimised(start, vehicle, jerk, target)?)));
     optimum.unwrap_or_else(|| {
         if works(SpeedRung::Ramp) {
-            (SpeedRung::Ramp, speed_profile::ramp(start.v, start.a, vehicle.max_deceleration, JERK))
+            let limits = BrakingLimits::EMERGENCY.with_max_deceleration(vehicle.max_deceleration);
+            (SpeedRung::Ramp, braking_profile(start.v, start.a, limits))
         } else {
-            (SpeedRung::ConstantDeceleration, speed_profile::constant_deceleration(start.v, CONSTANT))
+            let profile = speed_profile::constant_deceleration(start.v, start.a, CONSTANT);
+            (SpeedRung::ConstantDeceleration, profile)
         }
     })
 }
@@ -106,7 +108,7 @@ fn optimised(
     problem.dx[last] = (0.0, 0.0);
     problem.ddx[last] = (0.0, 0.0);
     let solution = Riccati::new().solve(&problem).ok()?;
-    Some(speed_profile::extract(STEP, &solution.x, &solution.dx, &solution.ddx))
+    Some(speed_profile::extract(&solution.x, &solution.dx, &solution.ddx, STEP))
 }
 
 /// How hard one has to brake, m/s², positive.

@@ -99,6 +99,25 @@ impl ConvexPolygon {
         !separates(self, other) && !separates(other, self)
     }
 
+    /// Whether the segment between two points meets this polygon; touching counts.
+    pub fn meets_segment(&self, from: Vec2, to: Vec2) -> bool {
+        // The part of the segment on the inner side of every edge, as shares of its length.
+        let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+        for (a, b) in self.edges() {
+            let (at, per_share) = (cross(b - a, from - a), cross(b - a, to - from));
+            if per_share == 0.0 {
+                if at < 0.0 {
+                    return false;
+                }
+            } else if per_share > 0.0 {
+                enter = enter.max(-at / per_share);
+            } else {
+                leave = leave.min(-at / per_share);
+            }
+        }
+        enter <= leave
+    }
+
     /// Shortest distance to `other`, 0 when they overlap.
     pub fn distance(&self, other: &Self) -> f64 {
         if self.overlaps(other) {
@@ -168,6 +187,17 @@ mod tests {
         let car = ConvexPolygon::rectangle(Pose::new(0.0, 0.0, 0.3), 3.89, 1.043, 1.055);
         let pole = ConvexPolygon::rectangle(Pose::new(1.5, 0.4, 0.0), 0.1, 0.1, 0.1);
         assert!(car.overlaps(&pole) && pole.overlaps(&car));
+    }
+
+    #[test]
+    fn a_segment_meets_what_it_ends_in_touches_or_passes_through() {
+        let meets = |a: (f64, f64), b: (f64, f64)| {
+            square(0.0, 0.0).meets_segment(Vec2::new(a.0, a.1), Vec2::new(b.0, b.1))
+        };
+        assert!(meets((0.0, 0.0), (5.0, 0.0)) && meets((0.1, 0.1), (0.2, 0.1)));
+        assert!(meets((-5.0, 0.2), (5.0, 0.3)) && meets((-5.0, 0.5), (5.0, 0.5)));
+        assert!(!meets((-5.0, 0.6), (5.0, 0.6)) && !meets((1.0, 0.0), (5.0, 0.0)));
+        assert!(!meets((0.0, 1.2), (1.2, 0.0)), "past the corner");
     }
 
     #[test]

@@ -2,23 +2,15 @@
 //!
 //! The gaps are the original's (`IsClearToChangeLane`): by relative speed, with a hysteresis per obstacle.
 
+pub mod clear;
+pub mod perception;
+pub mod state;
+
 use super::scene::Scene;
 use crate::context::Context;
 use crate::frame::{Frame, ObstacleId};
 use crate::planner::{LinePlan, TaskError};
 use crate::reference_line::LineQuery;
-
-/// Least gap ahead and behind among traffic of our direction, m.
-const SAME_DIRECTION_GAP: f64 = 10.0;
-
-/// Further gap per difference of speeds, s.
-const SAME_DIRECTION_TIME: f64 = 3.0;
-
-/// Least gap ahead to oncoming traffic, m, and per sum of speeds, s; and behind it, m.
-const ONCOMING: (f64, f64, f64) = (50.0, 5.0, 1.0);
-
-/// Half the width of the hysteresis on a gap, m.
-const HYSTERESIS: f64 = 0.5;
 
 /// How many ticks the target lane must have been clear: a gap that is there for one tick is none.
 const CLEAR_CYCLES: u32 = 4;
@@ -92,16 +84,9 @@ fn blocks(scene: &Scene, moving: &super::scene::Moving, blocked_before: bool) ->
     if now.at.l + now.half_width < -right || now.at.l - now.half_width > left {
         return false;
     }
-    let v = scene.frame.ego.v;
-    let (ahead, behind) = if now.s_dot >= 0.0 {
-        let gap = |closing: f64| SAME_DIRECTION_GAP.max(SAME_DIRECTION_TIME * closing);
-        (gap(v - now.s_dot), gap(now.s_dot - v))
-    } else {
-        (ONCOMING.0.max(ONCOMING.1 * (v - now.s_dot)), ONCOMING.2)
-    };
-    let margin = if blocked_before { HYSTERESIS } else { -HYSTERESIS };
+    let gaps = clear::safe_gaps(now.s_dot >= 0.0, scene.frame.ego.v, now.s_dot.abs());
     let ego_start_s = scene.ego.s - scene.vehicle.back_edge_to_center;
-    let to_rear = ego_start_s - (now.at.s + now.half_length);
-    let to_front = (now.at.s - now.half_length) - scene.ego_end_s();
-    to_rear < behind + margin && to_front < ahead + margin
+    let behind = ego_start_s - (now.at.s + now.half_length);
+    let ahead = (now.at.s - now.half_length) - scene.ego_end_s();
+    gaps.are_missing(ahead, behind, blocked_before)
 }
