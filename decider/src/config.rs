@@ -4,7 +4,8 @@ use crate::planner::{LANE_FOLLOW, TaskName};
 use crate::tasks::lane_borrow::LaneBorrowConfig;
 use crate::tasks::path::PathConfig;
 use crate::tasks::path_bounds::PathBoundsConfig;
-use crate::tasks::speed::SpeedConfig;
+use crate::tasks::piecewise_jerk_speed::SpeedConfig;
+use crate::tasks::speed_heuristic::SpeedHeuristicConfig;
 use serde::{Deserialize, Serialize};
 
 /// Settings of all tasks.
@@ -21,6 +22,10 @@ pub struct Config {
     pub path: PathConfig,
     /// Speed along a path.
     pub speed: SpeedConfig,
+    /// The search over the ST graph along the own lane.
+    pub speed_heuristic: SpeedHeuristicConfig,
+    /// The same into another lane.
+    pub speed_heuristic_lane_change: SpeedHeuristicConfig,
 }
 
 impl Default for Config {
@@ -31,11 +36,22 @@ impl Default for Config {
             lane_borrow: LaneBorrowConfig::default(),
             path: PathConfig::default(),
             speed: SpeedConfig::default(),
+            speed_heuristic: SpeedHeuristicConfig::default(),
+            speed_heuristic_lane_change: SpeedHeuristicConfig::lane_change(),
         }
     }
 }
 
 impl Config {
+    /// The settings of the search over the ST graph along a line.
+    pub fn speed_heuristic(&self, is_change_lane: bool) -> &SpeedHeuristicConfig {
+        if is_change_lane {
+            &self.speed_heuristic_lane_change
+        } else {
+            &self.speed_heuristic
+        }
+    }
+
     /// The original as shipped, defects included.
     pub fn apollo() -> Self {
         Self {

@@ -8,6 +8,7 @@ use crate::piecewise_jerk::Riccati;
 use crate::tasks::lane_borrow::BorrowState;
 use crate::tasks::lane_change::LaneChangeState;
 use crate::tasks::path_bounds::{Label, Memory};
+use crate::tasks::speed_decider::PedestrianTimers;
 
 /// The decider's memory. Starts empty.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +19,8 @@ pub struct Context {
     pub borrow: BorrowState,
     /// Of the lane-change decider.
     pub lane_change: LaneChangeState,
+    /// How long each person on foot has been stopped for (speed decider).
+    pub pedestrians: PedestrianTimers,
     /// What the last tick slowed down for.
     pub stop: Option<Stop>,
     /// What the path optimiser knows of each bound since the last tick.

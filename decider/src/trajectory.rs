@@ -8,6 +8,7 @@ use crate::geometry::{Pose, angle};
 use crate::planner::LinePlan;
 use crate::st_graph::SpeedData;
 use crate::tasks::start_point::StartPoint;
+use serde::{Deserialize, Serialize};
 
 /// Speeds of a trajectory that is fit, m/s (the original's constraint checker).
 const SPEEDS: (f64, f64) = (-0.1, 40.0);
@@ -26,7 +27,8 @@ const DRIVE_TOLERANCE: f64 = 2.0;
 const BACK: f64 = 1e-6;
 
 /// What is wrong with a trajectory.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, thiserror::Error)]
+#[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Unfit {
     /// There is no path or no speed to combine.

@@ -2,6 +2,7 @@
 
 use crate::frame::ObstacleId;
 use crate::planner::TaskName;
+use crate::trajectory::Unfit;
 use serde::{Deserialize, Serialize};
 
 /// What failed, and what is driven instead.
@@ -24,7 +25,7 @@ pub enum FallbackCause {
     /// A task failed.
     Task(TaskName),
     /// The trajectory that the tasks made is not fit to be driven.
-    Trajectory,
+    Trajectory(Unfit),
     /// There was nothing to plan with.
     Context(ContextFailure),
 }

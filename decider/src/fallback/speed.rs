@@ -39,7 +39,7 @@ const STANDS: f64 = 0.01;
 /// Where a stop on a path has to end at the latest, m along it: at the wall, before what will be there, or at its end.
 pub(super) fn target(plan: &LinePlan, path: &Path) -> f64 {
     let wall = plan.wall.map_or(path.length(), |wall| wall.distance);
-    let ahead = plan.boundaries.iter().map(|(_, boundary)| boundary.min_s());
+    let ahead = plan.on_path.iter().map(|there| there.boundary.min_s());
     ahead
         .filter(|s| *s >= 0.0)
         .fold(wall.min(path.length()), f64::min)

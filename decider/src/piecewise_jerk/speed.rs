@@ -3,9 +3,11 @@
 //! Source: Apollo's `PiecewiseJerkSpeedOptimizer`. Metres and seconds.
 
 use super::problem::{Cost, JerkCoupling, Limits, Problem, State, Term};
+use serde::{Deserialize, Serialize};
 
 /// What departing from the references, accelerating and its change cost.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct SpeedWeights {
     /// Of the squared acceleration.
     pub acc: f64,

@@ -95,7 +95,7 @@ fn conclude(
 ) -> Decision {
     let planned = match failed {
         Some(cause) => Err(cause),
-        None => trajectory::normal(&plan).map_err(|_| FallbackCause::Trajectory),
+        None => trajectory::normal(&plan).map_err(FallbackCause::Trajectory),
     };
     let driven = match planned {
         Ok(trajectory) => Driven::planned(&plan, trajectory),

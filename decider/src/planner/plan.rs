@@ -5,7 +5,8 @@ use crate::tasks::path::Path;
 use crate::tasks::path_bounds::{Borrow, Label, PathBounds};
 use crate::tasks::scene::Scene;
 use crate::frame::ObstacleId;
-use crate::st_graph::{SpeedData, StBoundary};
+use crate::st_graph::SpeedData;
+use crate::tasks::speed_bounds::{Envelope, OnPath};
 use crate::tasks::object_decision::ObjectDecision;
 use crate::context::LastPath;
 
@@ -36,7 +37,11 @@ pub struct LinePlan<'a> {
     /// Where the car would stand on the chosen path (rule-based stop).
     pub wall: Option<Stop>,
     /// What moving obstacles will occupy of the chosen path (speed bounds).
-    pub boundaries: Vec<(ObstacleId, StBoundary)>,
+    pub on_path: Vec<OnPath>,
+    /// How fast the road allows to drive along it (speed bounds).
+    pub envelope: Option<Envelope>,
+    /// A first profile, coarse (speed heuristic).
+    pub heuristic: Option<SpeedData>,
     /// Why the car slows down (speed).
     pub stop: Option<Stop>,
     /// Speed along the chosen path (speed).
@@ -53,7 +58,9 @@ impl<'a> LinePlan<'a> {
             scene,
             last_path: None,
             stop_before_blocker: None,
-            boundaries: Vec::new(),
+            on_path: Vec::new(),
+            envelope: None,
+            heuristic: None,
             borrow: Vec::new(),
             bounds: PathBounds::default(),
             candidates: Vec::new(),
@@ -75,5 +82,11 @@ impl<'a> LinePlan<'a> {
     /// The path that is driven.
     pub fn path(&self) -> Option<&Path> {
         self.chosen.as_ref().map(|(_, path)| path)
+    }
+
+    /// What is decided about an obstacle of the scene.
+    pub fn decision(&self, id: ObstacleId) -> Option<&ObjectDecision> {
+        let place = self.scene.obstacles.iter().position(|obstacle| obstacle.id == id)?;
+        self.decisions.get(place)
     }
 }

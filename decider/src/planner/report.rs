@@ -2,7 +2,10 @@
 
 use super::plan::LinePlan;
 use super::task::TaskName;
+use crate::st_graph::SpeedData;
+use crate::tasks::object_decision::Longitudinal;
 use crate::tasks::path_bounds::PathBound;
+use crate::tasks::speed_bounds::OnPath;
 use std::fmt::Write;
 
 impl TaskName {
@@ -16,7 +19,10 @@ impl TaskName {
             Self::PiecewiseJerkPath => format!("{} bounds", plan.bounds.bounds.len()),
             Self::PathAssessment => format!("{} paths", plan.candidates.iter().flatten().count()),
             Self::PathDecider => format!("{} standing obstacles", scene.bodies.len()),
-            Self::RuleBasedStop | Self::Speed => {
+            Self::SpeedHeuristic | Self::SpeedDecider | Self::SpeedBoundsFinal | Self::PiecewiseJerkSpeed => {
+                format!("{} obstacles on the path", plan.on_path.len())
+            }
+            Self::RuleBasedStop | Self::SpeedBoundsPriori => {
                 plan.path()
                     .map_or_else(|| String::from("no path"), |path| format!("a path of {:.1} m", path.length()))
             }
@@ -41,13 +47,34 @@ impl TaskName {
             Self::RuleBasedStop => plan
                 .wall
                 .map_or_else(String::new, |wall| format!("a wall at {:.1} m", wall.distance)),
-            Self::Speed => plan
-                .speed
-                .as_ref()
-                .and_then(|speed| speed.points.last())
-                .map_or_else(String::new, |last| format!("{:.1} m in {:.1} s", last.s, last.t)),
+            Self::SpeedBoundsPriori => format!("{} obstacles on the path", plan.on_path.len()),
+            Self::SpeedHeuristic => way(plan.heuristic.as_ref()),
+            Self::SpeedDecider | Self::SpeedBoundsFinal => decided(plan),
+            Self::PiecewiseJerkSpeed => way(plan.speed.as_ref()),
         }
     }
+}
+
+/// How far a profile leads, and for how long.
+fn way(profile: Option<&SpeedData>) -> String {
+    let last = profile.and_then(|profile| profile.points.last());
+    last.map_or_else(String::new, |last| format!("{:.1} m in {:.1} s", last.s, last.t))
+}
+
+/// What is decided about the obstacles on the path.
+fn decided(plan: &LinePlan) -> String {
+    let name = |decision: Longitudinal| match decision {
+        Longitudinal::Ignore => "ignore",
+        Longitudinal::Overtake(_) => "overtake",
+        Longitudinal::Follow(_) => "follow",
+        Longitudinal::Yield(_) => "yield",
+        Longitudinal::Stop(_) => "stop",
+    };
+    let one = |there: &OnPath| {
+        let decision = plan.decision(there.id).and_then(|decision| decision.longitudinal);
+        format!("{} {}", decision.map_or("undecided", name), there.id.0)
+    };
+    list(plan.on_path.iter().map(one))
 }
 
 fn list<T: std::fmt::Display>(items: impl IntoIterator<Item = T>) -> String {

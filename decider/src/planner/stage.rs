@@ -6,7 +6,7 @@ use crate::context::Context;
 use crate::decision::TaskReport;
 
 /// The tasks of lane following, in the original's order.
-pub const LANE_FOLLOW: [TaskName; 9] = [
+pub const LANE_FOLLOW: [TaskName; 13] = [
     TaskName::LaneChange,
     TaskName::PathReuse,
     TaskName::LaneBorrow,
@@ -15,7 +15,11 @@ pub const LANE_FOLLOW: [TaskName; 9] = [
     TaskName::PathAssessment,
     TaskName::PathDecider,
     TaskName::RuleBasedStop,
-    TaskName::Speed,
+    TaskName::SpeedBoundsPriori,
+    TaskName::SpeedHeuristic,
+    TaskName::SpeedDecider,
+    TaskName::SpeedBoundsFinal,
+    TaskName::PiecewiseJerkSpeed,
 ];
 
 /// Runs tasks in order. `fails` says which of them are to fail, whatever they would find.

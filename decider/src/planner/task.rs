@@ -3,9 +3,13 @@
 use super::plan::LinePlan;
 use crate::context::Context;
 use crate::decision::{PathRung, SpeedRung};
+use crate::frame::ObstacleId;
 use crate::tasks::path_bounds::PathBoundsError;
+use crate::tasks::speed_decider::SpeedDeciderError;
+use crate::tasks::speed_heuristic::SpeedHeuristicError;
 use crate::tasks::{
-    lane_borrow, lane_change, path, path_assessment, path_bounds, path_decider, path_reuse, rule_based_stop, speed,
+    lane_borrow, lane_change, path, path_assessment, path_bounds, path_decider, path_reuse, piecewise_jerk_speed,
+    rule_based_stop, speed_bounds, speed_decider, speed_heuristic,
 };
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -30,8 +34,16 @@ pub enum TaskName {
     PathDecider,
     /// Where the car stands on its path.
     RuleBasedStop,
-    /// Speed along the path by rules.
-    Speed,
+    /// What moving obstacles will occupy of the path.
+    SpeedBoundsPriori,
+    /// A first, coarse speed profile.
+    SpeedHeuristic,
+    /// Before or after which moving obstacle the car passes.
+    SpeedDecider,
+    /// What of the path stays free by these decisions.
+    SpeedBoundsFinal,
+    /// The smoothest speed profile that keeps them.
+    PiecewiseJerkSpeed,
 }
 
 /// A part of the planner that can be made to fail, to see what comes of it.
@@ -61,6 +73,21 @@ pub enum TaskError {
     /// No path inside any of the bounds.
     #[error("no bound has a drivable path")]
     NoPath,
+    /// No profile through the ST graph.
+    #[error(transparent)]
+    SpeedHeuristic(#[from] SpeedHeuristicError),
+    /// The profile cannot be decided by.
+    #[error(transparent)]
+    SpeedDecider(#[from] SpeedDeciderError),
+    /// An obstacle that can no more be stayed behind without an emergency.
+    #[error("obstacle {} cannot be stayed behind without an emergency", .0.0)]
+    Unavoidable(ObstacleId),
+    /// The optimiser's problem has no solution.
+    #[error("no profile keeps the bounds")]
+    Infeasible,
+    /// The optimiser gave up.
+    #[error("the optimiser gave up")]
+    NotSolved,
     /// A failure asked for from outside, to see what comes of it.
     #[error("failed on request")]
     OnRequest,
@@ -77,7 +104,11 @@ impl TaskName {
             Self::PathAssessment => path_assessment::run,
             Self::PathDecider => path_decider::run,
             Self::RuleBasedStop => rule_based_stop::run,
-            Self::Speed => speed::run,
+            Self::SpeedBoundsPriori => speed_bounds::run_priori,
+            Self::SpeedHeuristic => speed_heuristic::run,
+            Self::SpeedDecider => speed_decider::run,
+            Self::SpeedBoundsFinal => speed_bounds::run_final,
+            Self::PiecewiseJerkSpeed => piecewise_jerk_speed::run,
         }
     }
 }

@@ -7,7 +7,7 @@ use super::object_decision::{Fence, Lateral, Longitudinal};
 use super::path::Path;
 use super::path_bounds::ObstacleSl;
 use super::scene::Scene;
-use super::speed::stop_before;
+use super::piecewise_jerk_speed::stop_before;
 use crate::context::Context;
 use crate::frame::ObstacleId;
 use crate::planner::{LinePlan, TaskError};

@@ -88,7 +88,7 @@ pub(crate) fn outcome(outcome: Outcome) -> &'static str {
 pub(crate) fn fallback(trace: &Trace, fallback: Fallback) -> String {
     let cause = match fallback.cause {
         FallbackCause::Task(task) => format!("the task `{task}` failed"),
-        FallbackCause::Trajectory => "the trajectory is not fit to be driven".to_owned(),
+        FallbackCause::Trajectory(unfit) => format!("the trajectory is not fit to be driven: {unfit}"),
         FallbackCause::Context(ContextFailure::NoLocalisation) => "the ego's place is not known".to_owned(),
         FallbackCause::Context(ContextFailure::NoReferenceLine) => "there is no reference line".to_owned(),
         FallbackCause::Context(ContextFailure::Overlap(id)) => {

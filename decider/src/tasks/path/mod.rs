@@ -105,6 +105,14 @@ impl Path {
         a.distance + (s - a.s) / (b.s - a.s) * (b.distance - a.distance)
     }
 
+    /// Station at arc length `distance`, going on straight beyond its ends.
+    pub fn station_at(&self, distance: f64) -> f64 {
+        let points = &self.points;
+        let above = points.partition_point(|p| p.distance <= distance).clamp(1, points.len() - 1);
+        let (a, b) = (&points[above - 1], &points[above]);
+        a.s + (distance - a.distance) / (b.distance - a.distance) * (b.s - a.s)
+    }
+
     /// Station of its end, m.
     pub fn end_s(&self) -> f64 {
         self.points.last().map_or(0.0, |p| p.s)

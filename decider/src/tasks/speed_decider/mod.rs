@@ -9,12 +9,14 @@
 mod gaps;
 mod location;
 mod pedestrian;
+mod task;
 #[cfg(test)]
 mod tests;
 
 pub use gaps::{following_gap, overtaking_gap, yielding_gap};
 pub use location::{Location, location};
 pub use pedestrian::PedestrianTimers;
+pub use task::run;
 
 use super::object_decision::{Fence, Longitudinal, ObjectDecision};
 use crate::frame::ObstacleId;

@@ -9,12 +9,14 @@ mod config;
 mod cost;
 mod grid;
 mod search;
+mod task;
 #[cfg(test)]
 mod tests;
 
 pub use config::SpeedHeuristicConfig;
 pub use cost::{Costs, ObstaclesAt, differences};
 pub use grid::Grid;
+pub use task::run;
 
 use crate::st_graph::{BoundaryType, SpeedData, SpeedPoint, StBoundary, StGraphData, StPoint};
 use crate::vehicle::VehicleParams;

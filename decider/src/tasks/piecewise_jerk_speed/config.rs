@@ -1,20 +1,6 @@
-//! Speed along a path: cruise, bends, stops, leaders and crossing traffic.
-//!
-//! A simple layer with one function. The profile is integrated forward in time by the rule "accelerate as the
-//! tightest constraint allows"; constraints are the speed limit ahead (`limits`), a stop, and the stretches
-//! of the path that moving obstacles will occupy (`overlap`).
+//! Settings of everything that has to do with speed.
 
-mod limits;
-mod overlap;
-mod profile;
-mod rules;
-
-pub use overlap::{Claim, claims};
-pub(crate) use rules::stop_before;
-
-use crate::context::Context;
-use crate::decision::StopCause;
-use crate::planner::{LinePlan, TaskError};
+use crate::piecewise_jerk::SpeedWeights;
 use serde::{Deserialize, Serialize};
 
 /// Settings of the speed layer.
@@ -49,6 +35,12 @@ pub struct SpeedConfig {
     pub yield_time: f64,
     /// Share of the cruise speed driven while waiting for a gap in the lane to change to.
     pub gap_seeking_share: f64,
+    /// How far ahead the speed is planned, s.
+    pub total_time: f64,
+    /// What the optimiser's departing from its guide, and its jerk, cost.
+    pub weights: SpeedWeights,
+    /// Fastest change of acceleration that is planned for, m/s³.
+    pub planned_jerk: f64,
     /// How far before its place a pull-over stops, m: within the tolerance, on its near side.
     pub pull_over_early: f64,
 }
@@ -70,25 +62,13 @@ impl Default for SpeedConfig {
             lateral_margin: 0.3,
             yield_time: 1.5,
             gap_seeking_share: 0.85,
+            total_time: 7.0,
+            weights: SpeedWeights {
+                kappa_penalty: 0.0,
+                ..SpeedWeights::default()
+            },
+            planned_jerk: 4.0,
             pull_over_early: 0.25,
         }
     }
-}
-
-/// Plans the speed along the chosen path.
-pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> {
-    let scene = &plan.scene;
-    let (Some(path), Some(stop)) = (plan.path(), plan.wall) else {
-        return Err(TaskError::NoPath);
-    };
-    let claims = claims(scene, path);
-    let envelope = limits::Envelope::new(scene, path);
-    let yielded_to = context.stop.and_then(|stop| match stop.cause {
-        StopCause::Yield(id) => Some(id),
-        _ => None,
-    });
-    let (speed, stop) = profile::integrate(scene, &envelope, stop, &claims, yielded_to);
-    plan.stop = stop;
-    plan.speed = Some(speed);
-    Ok(())
 }

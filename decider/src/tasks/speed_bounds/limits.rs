@@ -23,14 +23,14 @@ const NARROW: (f64, f64) = (0.5, 14.0);
 
 /// The fastest speed at each point of a path, reachable with comfortable braking.
 #[derive(Clone, Debug)]
-pub(super) struct Envelope {
+pub struct Envelope {
     /// Speed per metre of path.
     speeds: Vec<f64>,
     step: f64,
 }
 
 impl Envelope {
-    pub(super) fn new(scene: &Scene, path: &Path) -> Self {
+    pub fn new(scene: &Scene, path: &Path) -> Self {
         let config = &scene.config.speed;
         let mut speeds: Vec<f64> = path
             .points
@@ -60,7 +60,7 @@ impl Envelope {
     }
 
     /// The limit at a distance along the path; the last one goes on.
-    pub(super) fn at(&self, distance: f64) -> f64 {
+    pub fn at(&self, distance: f64) -> f64 {
         let place = (distance / self.step).max(0.0);
         #[expect(
             clippy::cast_possible_truncation,
