@@ -273,8 +273,9 @@ fn check_length(list: &'static str, length: usize, wanted: usize) -> Result<(), 
 
 fn check_limits(list: &'static str, limits: &[Limits], wanted: usize) -> Result<(), ProblemError> {
     check_length(list, limits.len(), wanted)?;
-    let is_wrong =
-        |(low, high): &Limits| !(low <= high) || *low == f64::INFINITY || *high == f64::NEG_INFINITY;
+    let is_wrong = |(low, high): &Limits| {
+        low.is_nan() || high.is_nan() || low > high || *low == f64::INFINITY || *high == f64::NEG_INFINITY
+    };
     match limits.iter().position(is_wrong) {
         None => Ok(()),
         Some(index) => {

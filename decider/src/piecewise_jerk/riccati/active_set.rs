@@ -192,12 +192,8 @@ impl ActiveSet {
                     } else {
                         *touched
                     }
-                } else if value < low - tolerance {
-                    -1
-                } else if value > high + tolerance {
-                    1
                 } else {
-                    0
+                    i8::from(value > high + tolerance) - i8::from(value < low - tolerance)
                 };
                 changed |= next != *touched;
                 *touched = next;

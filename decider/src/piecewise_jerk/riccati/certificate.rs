@@ -22,7 +22,9 @@ pub(super) fn proves_infeasible(
     by_jerk: &mut Vec<f64>,
 ) -> bool {
     // What the jerks' own limits say is said best below.
-    multipliers.iter_mut().for_each(|lanes| lanes[JERK] = 0.0);
+    for lanes in multipliers.iter_mut() {
+        lanes[JERK] = 0.0;
+    }
     by_jerk.resize(values.len(), 0.0);
     jerk_gradient(multipliers, by_jerk);
     let (mut sum, mut size, mut weight) = (0.0, 0.0, 0.0);

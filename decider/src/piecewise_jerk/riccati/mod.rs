@@ -5,6 +5,11 @@
 //! which usually takes one or two factorisations. Either way the answer is that of the last linear system, so it does
 //! not tell which way was gone.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "formulas take the same stage and lane of several lists"
+)]
+
 mod active_set;
 mod certificate;
 mod interior_point;

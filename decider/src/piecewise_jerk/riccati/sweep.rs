@@ -96,3 +96,67 @@ pub(super) fn jerk_gradient(gradient: &[Lanes], by_jerk: &mut [f64]) {
         costate = back(costate);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{DMatrix, DVector};
+
+    /// Values by jerks, one column per jerk: the dynamics written out.
+    fn responses(n: usize) -> DMatrix<f64> {
+        let mut all = DMatrix::zeros(4 * n, n);
+        for column in 0..n {
+            let mut state = [0.0; 3];
+            for i in 0..n {
+                let jerk = f64::from(u8::from(i == column));
+                state = advance(state, jerk);
+                for k in 0..JERK {
+                    all[(4 * i + k, column)] = state[k];
+                }
+                all[(4 * i + JERK, column)] = jerk;
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn a_sweep_is_the_dense_newton_step() {
+        let n = 9;
+        let number = |i: usize, k: usize| ((7 * i + 3 * k) % 11) as f64;
+        let weights: Vec<Lanes> = (0..n)
+            .map(|i| std::array::from_fn(|k| number(i, k) + 0.5))
+            .collect();
+        let linear: Vec<Lanes> = (0..n)
+            .map(|i| std::array::from_fn(|k| number(k, i) - 5.0))
+            .collect();
+        let mut sweep = Sweep::default();
+        let mut changes = vec![[0.0; 4]; n];
+        sweep.factorise(&weights);
+        sweep.solve(&linear, &mut changes);
+
+        let response = responses(n);
+        let flat = |lists: &[Lanes]| DVector::from_iterator(4 * n, lists.iter().flatten().copied());
+        let matrix = response.transpose() * DMatrix::from_diagonal(&flat(&weights)) * &response;
+        let gradient = response.transpose() * flat(&linear);
+        let jerks = matrix.lu().solve(&-&gradient).expect("positive definite");
+        let off = (&response * jerks - flat(&changes)).amax();
+        assert!(off < 1e-9, "{off:e}");
+
+        let mut by_jerk = vec![0.0; n];
+        jerk_gradient(&linear, &mut by_jerk);
+        assert!((DVector::from_vec(by_jerk) - gradient).amax() < 1e-9);
+    }
+
+    /// An infinite weight holds a jerk.
+    #[test]
+    fn a_held_jerk_stays() {
+        let mut weights = vec![[1.0; 4]; 5];
+        weights[2][JERK] = f64::INFINITY;
+        let mut sweep = Sweep::default();
+        let mut changes = vec![[0.0; 4]; 5];
+        sweep.factorise(&weights);
+        sweep.solve(&[[1.0; 4]; 5], &mut changes);
+        let jerks: Vec<bool> = changes.iter().map(|lanes| lanes[JERK] == 0.0).collect();
+        assert_eq!(jerks, [false, false, true, false, false]);
+    }
+}

@@ -97,7 +97,9 @@ pub(super) fn speed(draw: &mut Draw) -> SpeedProblem {
         0 => {}
         1 => {
             let stop = draw.between(0.2, 1.6) * (1.0 + v0 * v0 / 8.0);
-            s.iter_mut().for_each(|(_, high)| *high = high.min(stop));
+            for (_, high) in &mut s {
+                *high = high.min(stop);
+            }
         }
         2 => {
             let (gap, lead) = (draw.between(1.0, 30.0), draw.between(0.0, 15.0));

@@ -39,18 +39,13 @@ fn profile(v_limit: f64, s_limit: f64, s_ref: impl Fn(f64) -> f64) -> SpeedProbl
     }
 }
 
+/// Rolls up to a stop line, known at whole seconds.
 fn stop_profile(t: f64) -> f64 {
-    let at = [0.0, 10.0, 18.0, 23.0, 26.0, 27.0, 27.0, 27.0];
-    let before = (t + 1e-9).floor();
-    let (k, share) = (
-        [0, 1, 2, 3, 4, 5, 6][(before as usize).min(6)],
-        (t - before).min(1.0),
-    );
-    if t > 7.0 - 1e-9 {
-        at[7]
-    } else {
-        at[k] + share * (at[k + 1] - at[k])
-    }
+    let at: [f64; 8] = [0.0, 10.0, 18.0, 23.0, 26.0, 27.0, 27.0, 27.0];
+    let pieces = at.windows(2).zip(0..);
+    pieces.fold(0.0, |s, (ends, second)| {
+        s + (t - f64::from(second)).clamp(0.0, 1.0) * (ends[1] - ends[0])
+    })
 }
 
 #[test]
@@ -87,7 +82,7 @@ fn a_stop_ahead() {
 
 #[test]
 fn the_shortest_stops() {
-    let table: [((f64, f64), [[f64; 3]; 3]); 7] = [
+    let table = [
         (
             (2.0, 0.0),
             [[1.4106, 0.5387, -1.4696], [1.5419, 0.0, 0.0], [1.5419, 0.0, 0.0]],

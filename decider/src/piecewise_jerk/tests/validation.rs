@@ -58,7 +58,9 @@ fn extremes_end() {
     for scale in [0.0, 1e-12, 1.0, 1e12, 1e300] {
         for limit in [1e-9, 1.0, 1e10, f64::MAX, f64::INFINITY] {
             let mut problem = some();
-            problem.cost.x.iter_mut().for_each(|term| term.weight *= scale);
+            for term in &mut problem.cost.x {
+                term.weight *= scale;
+            }
             problem.cost.dddx *= scale;
             problem.x.fill((-limit, limit));
             problem.ddx.fill((-limit, limit));

@@ -56,7 +56,9 @@ fn changed(problem: &Problem) -> Problem {
     let mut next = problem.clone();
     next.initial.x += 1e-3;
     next.initial.dx *= 0.999;
-    next.x.iter_mut().for_each(|(_, high)| *high += 3e-3);
+    for (_, high) in &mut next.x {
+        *high += 3e-3;
+    }
     next.admit_initial_state();
     next
 }
