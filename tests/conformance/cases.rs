@@ -2,6 +2,7 @@
 
 use crate::map::MapCase;
 use crate::path_bounds::PathBoundsCase;
+use crate::speed::{self, SpeedCase};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -11,6 +12,8 @@ pub(crate) enum Case {
     PathBounds(Box<PathBoundsCase>),
     /// A question to a map, a route or a line.
     Map(Box<MapCase>),
+    /// A question to one of the speed tasks.
+    Speed(Box<SpeedCase>),
 }
 
 impl Case {
@@ -18,6 +21,7 @@ impl Case {
         match self {
             Self::PathBounds(case) => &case.name,
             Self::Map(case) => &case.name,
+            Self::Speed(case) => &case.name,
         }
     }
 }
@@ -37,7 +41,7 @@ pub(crate) enum CaseError {
     },
     #[error(
         "{file}:{line}: unknown kind of case; known: path_bounds (`input.ref_line` and `input.status`), map (`map` \
-         and `function`)"
+         and `function`), speed (a `function` of the speed tasks)"
     )]
     UnknownKind { file: PathBuf, line: usize },
 }
@@ -90,6 +94,11 @@ fn parse(file: &Path, line: usize, text: &str) -> Result<Case, CaseError> {
     }
     if value.get("map").is_some() && value.get("function").is_some() {
         return Ok(Case::Map(Box::new(
+            serde_json::from_value(value).map_err(malformed)?,
+        )));
+    }
+    if value["function"].as_str().is_some_and(speed::knows) {
+        return Ok(Case::Speed(Box::new(
             serde_json::from_value(value).map_err(malformed)?,
         )));
     }

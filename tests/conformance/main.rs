@@ -8,6 +8,7 @@
 mod cases;
 mod map;
 mod path_bounds;
+mod speed;
 mod stub_world;
 
 use cases::Case;
@@ -81,5 +82,6 @@ fn check(case: &Case, store: &mut MapStore) -> Result<(), String> {
     match case {
         Case::PathBounds(case) => path_bounds::check(case),
         Case::Map(case) => map::check(case, store),
+        Case::Speed(case) => speed::check(case),
     }
 }

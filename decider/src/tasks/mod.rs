@@ -8,6 +8,7 @@ pub mod path_bounds;
 pub mod rss;
 pub mod scene;
 pub mod speed;
+pub mod speed_bounds;
 pub mod speed_decider;
 pub mod speed_heuristic;
 pub mod start_point;
