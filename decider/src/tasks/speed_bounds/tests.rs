@@ -4,6 +4,7 @@ use super::*;
 use crate::frame::{Obstacle, ObstacleId, ObstacleKind, PredictedPose};
 use crate::geometry::{ConvexPolygon, Pose, Vec2, angle};
 use crate::vehicle::VehicleParams;
+use BoundaryType as Kind;
 use proptest::prelude::*;
 
 /// A path of constant curvature from the origin, a point a metre.
@@ -137,7 +138,6 @@ fn decisions_shape_boundaries() {
         .iter()
         .map(|boundary| boundary.as_ref().map(|boundary| boundary.kind))
         .collect();
-    use BoundaryType as Kind;
     let wanted = [
         Some(Kind::Unknown),
         None,
@@ -263,7 +263,7 @@ proptest! {
         let track = track(&path);
         let place = track.place_at(at);
         let left = Vec2::new(-place.forward.y, place.forward.x);
-        let center = place.position + left * beside;
+        let center: Vec2 = place.position + left * beside;
         let body = obstacle(Pose::new(center.x, center.y, theta), half, vec![]);
         let outline = body.footprint();
         let radius = Vec2::new(half.0, half.1).norm();
