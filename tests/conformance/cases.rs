@@ -3,6 +3,7 @@
 use crate::map::MapCase;
 use crate::path_bounds::PathBoundsCase;
 use crate::qp::QpCase;
+use crate::speed::{self, SpeedCase};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -14,6 +15,8 @@ pub(crate) enum Case {
     Map(Box<MapCase>),
     /// A piecewise-jerk problem.
     Qp(Box<QpCase>),
+    /// A question to one of the speed tasks.
+    Speed(Box<SpeedCase>),
 }
 
 impl Case {
@@ -22,6 +25,7 @@ impl Case {
             Self::PathBounds(case) => &case.name,
             Self::Map(case) => &case.name,
             Self::Qp(case) => &case.name,
+            Self::Speed(case) => &case.name,
         }
     }
 }
@@ -41,7 +45,8 @@ pub(crate) enum CaseError {
     },
     #[error(
         "{file}:{line}: unknown kind of case; known: path_bounds (`input.ref_line` and `input.status`), map (`map` \
-         and `function`), a piecewise-jerk problem (`function` ends with `_qp` or `_qp_diagonal`)"
+         and `function`), a piecewise-jerk problem (`function` ends with `_qp` or `_qp_diagonal`), speed (a `function` of \
+         the speed tasks)"
     )]
     UnknownKind { file: PathBuf, line: usize },
 }
@@ -99,6 +104,11 @@ fn parse(file: &Path, line: usize, text: &str) -> Result<Case, CaseError> {
     }
     if value["function"].as_str().is_some_and(QpCase::knows) {
         return Ok(Case::Qp(Box::new(
+            serde_json::from_value(value).map_err(malformed)?,
+        )));
+    }
+    if value["function"].as_str().is_some_and(speed::knows) {
+        return Ok(Case::Speed(Box::new(
             serde_json::from_value(value).map_err(malformed)?,
         )));
     }

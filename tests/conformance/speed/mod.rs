@@ -3,9 +3,9 @@
 //! Where a case shows a defect of the original and names the repaired result, that result counts, as far as it is
 //! given. Where it names none, and where Corridor knowingly goes its own way, this is compared:
 //!
-//! - `dp.search`, marked `fragile`: the start speed and all places of such a case lie on ties that a change of 1e-9
-//!   decides; the answer has to be right for the grid (status, and a total cost that is not worse by more than 1e-6);
-//!   the last point of a profile has a speed in Corridor and is not compared;
+//! - `dp.search`, marked `fragile`: such a case lies on a tie that a change of 1e-9 decides, so that another profile is
+//!   as right; the status and, if the total cost is the expected one, all else; the last point of a profile has a speed
+//!   in Corridor and is not compared;
 //! - `speed_decider.execute` with a rejected stop for a pedestrian: the obstacle has to be ignored, not undecided;
 //! - `rss.execute`, mirrored sides: left and right are swapped in the expectation; straddling obstacles: gap and safe
 //!   distance are computed here from the formula for the nearest obstacle that overlaps the lane; a negative speed: the

@@ -18,8 +18,8 @@ pub enum Phase {
 pub struct Status<I> {
     /// How far it has come.
     pub phase: Phase,
-    /// The line of the lane in which the ego was then.
-    pub line: I,
+    /// The line of the lane in which the ego was then, if there was one.
+    pub line: Option<I>,
     /// Time of the last change of this, s.
     pub since: f64,
     /// Time at which a change last succeeded, if known, s.
@@ -101,7 +101,7 @@ pub fn advance<I: Clone + PartialEq>(
     let Some(status) = status else {
         *status = Some(Status {
             phase: Phase::Finished,
-            line: own().ok_or(LaneChangeError::NoOwnLine)?.clone(),
+            line: own().cloned(),
             since: now,
             last_success: Some(now),
         });
@@ -115,27 +115,30 @@ pub fn advance<I: Clone + PartialEq>(
     }
     let own = own().ok_or(LaneChangeError::NoOwnLine)?;
     let waited = now - status.since;
-    let change = match status.phase {
+    Ok(match status.phase {
+        Phase::Changing if status.line.as_ref() == Some(own) => prioritize(true),
         Phase::Changing => {
-            let goes_on = status.line == *own;
-            if !goes_on {
-                status.enter(Phase::Finished, own, now);
-            }
-            goes_on
+            status.enter(Phase::Finished, own, now);
+            prioritize(false)
         }
-        Phase::Failed => waited >= config.change_lane_fail_freeze_time,
-        Phase::Finished => waited >= config.change_lane_success_freeze_time,
-    };
-    if change && status.phase != Phase::Changing {
-        status.enter(Phase::Changing, own, now);
-    }
-    Ok(prioritize(change))
+        Phase::Failed if waited < config.change_lane_fail_freeze_time => prioritize(false),
+        // As in the original the order of the lines follows in the next tick.
+        Phase::Failed => {
+            status.enter(Phase::Changing, own, now);
+            None
+        }
+        Phase::Finished if waited < config.change_lane_success_freeze_time => prioritize(false),
+        Phase::Finished => {
+            status.enter(Phase::Changing, own, now);
+            prioritize(true)
+        }
+    })
 }
 
 impl<I: Clone> Status<I> {
     fn enter(&mut self, phase: Phase, line: &I, now: f64) {
         self.phase = phase;
-        self.line = line.clone();
+        self.line = Some(line.clone());
         self.since = now;
     }
 }
@@ -187,7 +190,7 @@ mod tests {
     fn without_an_own_line_nothing_changes() {
         let mut status = Some(Status {
             phase: Phase::Failed,
-            line: 0,
+            line: Some(0),
             since: 0.0,
             last_success: None,
         });

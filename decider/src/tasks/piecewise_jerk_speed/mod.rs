@@ -14,7 +14,7 @@ pub use config::SpeedConfig;
 pub(crate) use rules::stop_before;
 
 use crate::context::Context;
-use crate::piecewise_jerk::{JerkCoupling, SolveError, Solver, SpeedProblem, State, Term};
+use crate::piecewise_jerk::{JerkCoupling, Solution, SolveError, Solver, SpeedProblem, State, Term};
 use crate::planner::{LinePlan, TaskError};
 use crate::st_graph::{SpeedData, SpeedPoint};
 use guide::STEP;
@@ -41,16 +41,27 @@ pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> 
         SolveError::Infeasible => TaskError::Infeasible,
         _ => TaskError::NotSolved,
     })?;
-    let point = |k: usize| SpeedPoint {
-        t: k as f64 * STEP,
-        s: solution.x[k],
-        v: if solution.dx[k] < NOTHING { 0.0 } else { solution.dx[k] },
-        a: solution.ddx[k],
-        da: solution.dddx.get(k).copied().unwrap_or(0.0),
-    };
-    plan.speed = Some(SpeedData::new((0..solution.x.len()).map(point).collect()));
+    plan.speed = Some(profile(&solution));
     plan.stop = guide.stop;
     Ok(())
+}
+
+/// The profile of a solution. Speeds are held above nothing only at the knots, so one that stands rolls back and forth
+/// between them by less than a millimetre; a car does not.
+fn profile(solution: &Solution) -> SpeedData {
+    let mut farthest = 0.0_f64;
+    let point = |k: usize| {
+        farthest = farthest.max(solution.x[k]);
+        let moves = solution.dx[k] > NOTHING;
+        SpeedPoint {
+            t: k as f64 * STEP,
+            s: farthest,
+            v: if moves { solution.dx[k] } else { 0.0 },
+            a: solution.ddx[k],
+            da: solution.dddx.get(k).copied().unwrap_or(0.0),
+        }
+    };
+    SpeedData::new((0..solution.x.len()).map(point).collect())
 }
 
 fn problem(plan: &LinePlan, guide: &SpeedData, wall: f64) -> Result<SpeedProblem, TaskError> {

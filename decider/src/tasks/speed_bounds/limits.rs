@@ -1,7 +1,6 @@
 //! The speed that the road ahead allows: limits of the map and lateral acceleration in bends.
 
 use crate::decision::PathPoint;
-use crate::reference_line::LineQuery;
 use crate::tasks::path::Path;
 use crate::tasks::path_bounds::ObstacleSl;
 use crate::tasks::scene::Scene;
@@ -30,6 +29,7 @@ pub struct Envelope {
 }
 
 impl Envelope {
+    /// The limits of one path.
     pub fn new(scene: &Scene, path: &Path) -> Self {
         let config = &scene.config.speed;
         let mut speeds: Vec<f64> = path
@@ -108,9 +108,4 @@ fn room_limit(scene: &Scene, point: &PathPoint, slope: f64) -> f64 {
     } else {
         (NARROW.0 + NARROW.1 * room).max(NARROW.0)
     }
-}
-
-/// Whether a line leaves room to plan on at all.
-pub(super) fn is_within<L: LineQuery + ?Sized>(line: &L, s: f64) -> bool {
-    s >= 0.0 && s <= line.length()
 }

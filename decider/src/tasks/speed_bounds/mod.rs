@@ -2,11 +2,17 @@
 //! fast the road allows to drive along it. First nothing is decided about them; the second time what is decided is
 //! theirs.
 
+mod contact;
 mod limits;
-mod overlap;
+mod on_path;
+#[cfg(test)]
+mod tests;
+mod track;
 
+pub use contact::Contact;
 pub use limits::Envelope;
-pub use overlap::OnPath;
+pub use on_path::OnPath;
+pub use track::Track;
 
 use super::object_decision::Longitudinal;
 use crate::context::Context;
@@ -33,7 +39,7 @@ pub fn run_priori(plan: &mut LinePlan, context: &mut Context) -> Result<(), Task
         let held = yielded_to == Some(id);
         yield_time + if held { YIELD_HYSTERESIS } else { 0.0 }
     };
-    let on_path = overlap::on_path(&plan.scene, path, margin);
+    let on_path = on_path::on_path(&plan.scene, path, margin);
     let envelope = Envelope::new(&plan.scene, path);
     plan.on_path = on_path;
     plan.envelope = Some(envelope);

@@ -158,7 +158,10 @@ pub fn decide(
             object.reason = Some(reason);
         }
         result?;
-        object.ignore_the_rest();
+        // Someone on foot who is stopped for may still be nudged.
+        if object.reason != Some(Reason::Pedestrian) {
+            object.ignore_the_rest();
+        }
     }
     Ok(())
 }

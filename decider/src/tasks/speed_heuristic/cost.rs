@@ -48,17 +48,17 @@ struct Near {
 impl<'a> Costs<'a> {
     /// For these obstacles. A car slower than `stopped_speed` counts as standing.
     pub fn new(config: &'a SpeedHeuristicConfig, obstacles: &'a [StObstacle], stopped_speed: f64) -> Self {
-        let keep_clear = obstacles
-            .iter()
-            .map(|obstacle| &obstacle.boundary)
-            .filter(|boundary| boundary.kind == BoundaryType::KeepClear)
-            .map(|boundary| (boundary.min_s(), boundary.max_s()));
         Self {
             config,
             obstacles,
-            keep_clear: keep_clear.collect(),
+            keep_clear: keep_clear_ranges(obstacles),
             stopped_speed,
         }
+    }
+
+    /// The stretches of the path on which one must not stand, ascending and apart from each other, m.
+    pub fn keep_clear(&self) -> &[(f64, f64)] {
+        &self.keep_clear
     }
 
     /// What repels at time `t`.
@@ -134,6 +134,22 @@ impl<'a> Costs<'a> {
         };
         coefficient * (jerk * jerk) * config.unit_t
     }
+}
+
+/// The extents of all zones to keep clear, with those that meet as one.
+fn keep_clear_ranges(obstacles: &[StObstacle]) -> Vec<(f64, f64)> {
+    let boundaries = obstacles.iter().map(|obstacle| &obstacle.boundary);
+    let zones = boundaries.filter(|boundary| boundary.kind == BoundaryType::KeepClear);
+    let mut zones: Vec<(f64, f64)> = zones.map(|zone| (zone.min_s(), zone.max_s())).collect();
+    zones.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut merged: Vec<(f64, f64)> = Vec::with_capacity(zones.len());
+    for zone in zones {
+        match merged.last_mut() {
+            Some(last) if last.1 >= zone.0 => last.1 = last.1.max(zone.1),
+            _ => merged.push(zone),
+        }
+    }
+    merged
 }
 
 /// Whether a value lies in a table with so many bins to either side of 0.

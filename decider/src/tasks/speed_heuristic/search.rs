@@ -200,7 +200,7 @@ impl<'a> Sweep<'a> {
             let Some(v) = self.speed_after(from, s_from, s) else {
                 continue;
             };
-            let limit = self.limits[row].min(self.limits[from.row]);
+            let limit = self.limit(step.column, from.row, row);
             let speed_cost = self.costs.speed(s_from, s, limit, self.cruise);
             let so_far = obstacle + spatial + from.node.total;
             // Costs of acceleration and jerk are not negative, and an edge that is too dear need not be free.
@@ -227,6 +227,14 @@ impl<'a> Sweep<'a> {
             }
         }
         best
+    }
+
+    /// The limit of an edge: the lesser of those at its ends. At the start the car is as fast as it is.
+    fn limit(&self, column: usize, from: usize, to: usize) -> f64 {
+        match column {
+            1 => self.limits[to],
+            _ => self.limits[to].min(self.limits[from]),
+        }
     }
 
     /// Speed at the end of the constant acceleration from a node to `s`, if that is within the limits.
