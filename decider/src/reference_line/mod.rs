@@ -4,6 +4,7 @@
 //! whoever has one needs no map. Semantics follow the original's `ReferenceLine` and `Path`.
 
 mod curve;
+mod foot;
 mod line;
 mod provider;
 mod query;
