@@ -1,5 +1,6 @@
 //! Every knob of the decider. Names in `path_bounds` are the original's.
 
+use crate::lane_follow_map::{LaneFollowConfig, LaneFollowQuirks};
 use crate::tasks::lane_borrow::LaneBorrowConfig;
 use crate::tasks::path::PathConfig;
 use crate::tasks::path_bounds::PathBoundsConfig;
@@ -18,6 +19,8 @@ pub struct Config {
     pub path: PathConfig,
     /// Speed along a path.
     pub speed: SpeedConfig,
+    /// How far the lines along a route reach.
+    pub lane_follow: LaneFollowConfig,
 }
 
 impl Config {
@@ -29,6 +32,10 @@ impl Config {
             path: PathConfig {
                 corner_collision_check: true,
                 ..PathConfig::default()
+            },
+            lane_follow: LaneFollowConfig {
+                quirks: LaneFollowQuirks::apollo(),
+                ..LaneFollowConfig::default()
             },
             ..Self::default()
         }

@@ -108,6 +108,25 @@ fn forty_eight_lanelets_of_a_town_are_driven() {
     }
 }
 
+/// The longest way on this map: to a roundabout of 3 m radius at the end of the street and back on the same lanelets.
+/// A line that lies on itself would have the car on the wrong half of it.
+#[test]
+fn a_street_is_driven_to_its_end_and_back() {
+    let map = "$MAPS/lanelet2/mapping_example.osm";
+    if let Some(trace) = drive(&scenario(map, "45572", "45566", 8.0)) {
+        arrives(&trace, 500.0);
+    }
+}
+
+/// Over two changes of lane to a ramp that leads under the road that it has left.
+#[test]
+fn a_ramp_under_its_own_road_is_driven() {
+    let map = "$MAPS/lanelet2/mapping_example.osm";
+    if let Some(trace) = drive(&scenario(map, "1234379034591142988", "9037740909199276460", 8.0)) {
+        arrives(&trace, 280.0);
+    }
+}
+
 #[test]
 fn a_lane_is_changed_between_lanelets_of_a_town() {
     let map = "$MAPS/lanelet2/mapping_example.osm";

@@ -28,6 +28,7 @@ pub(super) struct Knot {
 }
 
 impl Knot {
+    #[inline]
     pub(super) fn position(&self) -> Vec2 {
         Vec2::new(self.point.x, self.point.y)
     }
@@ -70,9 +71,15 @@ impl Curve {
 
     /// The last knot at or before `s` that has a successor, and the fraction of the way to that one.
     pub(super) fn locate(&self, s: f64) -> (usize, f64) {
-        let above = self.knots_until(s).clamp(1, self.knots.len() - 1);
-        let (a, b) = (self.knots[above - 1].s, self.knots[above].s);
-        (above - 1, ((s - a) / (b - a)).clamp(0.0, 1.0))
+        let k = self.piece_at(s);
+        let (a, b) = (self.knots[k].s, self.knots[k + 1].s);
+        (k, ((s - a) / (b - a)).clamp(0.0, 1.0))
+    }
+
+    /// The last knot at or before `s` that has a successor.
+    #[inline]
+    pub(super) fn piece_at(&self, s: f64) -> usize {
+        self.knots_until(s).clamp(1, self.knots.len() - 1) - 1
     }
 
     /// How many knots lie at or before `s`: counted from where `s` would lie among even ones.
@@ -109,17 +116,23 @@ impl Curve {
     }
 
     /// The place of [`Curve::between`].
+    #[inline]
     pub(super) fn position(&self, k: usize, t: f64) -> Vec2 {
-        let (a, b) = (&self.knots[k], &self.knots[k + 1]);
-        let (h00, h10) = ((1.0 + 2.0 * t) * (1.0 - t) * (1.0 - t), t * (1.0 - t) * (1.0 - t));
-        let (h01, h11) = (t * t * (3.0 - 2.0 * t), t * t * (t - 1.0));
-        Vec2::new(
-            h00 * a.point.x + h01 * b.point.x + a.length * (h10 * a.tangent.x + h11 * b.tangent.x),
-            h00 * a.point.y + h01 * b.point.y + a.length * (h10 * a.tangent.y + h11 * b.tangent.y),
-        )
+        let a = &self.knots[k];
+        let (rest, square) = (1.0 - t, t * t);
+        let (to_b, from_a, into_b) = (square * (3.0 - 2.0 * t), t * rest * rest, -square * rest);
+        let bend = a.tangent * from_a + self.knots[k + 1].tangent * into_b;
+        a.position() + self.chords.along(k) * to_b + bend * a.length
+    }
+
+    /// The station at fraction `t` of the piece behind knot `k`.
+    #[inline]
+    pub(super) fn station(&self, k: usize, t: f64) -> f64 {
+        self.knots[k].s + t * self.knots[k].length
     }
 
     /// Cosine and sine of the heading of [`Curve::between`]: the knot's tangent, turned.
+    #[inline]
     pub(super) fn tangent(&self, k: usize, t: f64) -> Vec2 {
         let a = &self.knots[k];
         turned(a.tangent, a.turn * t)
@@ -127,6 +140,7 @@ impl Curve {
 }
 
 /// A vector turned to the left.
+#[inline]
 fn turned(v: Vec2, by: f64) -> Vec2 {
     let (sin, cos) = if by.abs() <= SMALL_TURN {
         let q = by * by;

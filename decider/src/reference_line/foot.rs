@@ -2,7 +2,7 @@
 //! from a hint, then Newton's method on the curve itself. Metres, world frame.
 
 use super::curve::{Curve, Knot};
-use crate::geometry::Vec2;
+use crate::geometry::{Vec2, cross};
 
 /// Newton steps to a foot. Two reach rounding; the rest is for steps over a knot.
 const FOOT_STEPS: usize = 5;
@@ -59,10 +59,19 @@ struct Chord {
 
 impl Chord {
     /// Where the foot of `point` lies, from 0 to 1.
+    #[inline]
     fn fraction(&self, point: Vec2) -> f64 {
         ((point - self.from).dot(&self.along) * self.per_length_squared).clamp(0.0, 1.0)
     }
 
+    /// The same on the arc over the chord that turns by `turn`, for a point nearer than the arc's centre.
+    fn fraction_of_arc(&self, turn: f64, point: Vec2) -> f64 {
+        let to = (point - self.from) * self.per_length_squared;
+        let (ahead, left) = (self.along.dot(&to), cross(self.along, to));
+        (0.5 + (ahead - 0.5) / (1.0 - turn * left).max(LEAST_STRETCH)).clamp(0.0, 1.0)
+    }
+
+    #[inline]
     fn distance_squared(&self, point: Vec2) -> f64 {
         (point - self.from - self.along * self.fraction(point)).norm_squared()
     }
@@ -98,6 +107,12 @@ pub(super) struct Chords {
 }
 
 impl Chords {
+    /// From one knot to the next.
+    #[inline]
+    pub(super) fn along(&self, k: usize) -> Vec2 {
+        self.chords[k].along
+    }
+
     pub(super) fn between(knots: &[Knot]) -> Self {
         let chord = |pair: &[Knot]| {
             let along = pair[1].position() - pair[0].position();
@@ -166,9 +181,9 @@ impl Curve {
     /// The foot that one comes to downhill from the station `hint`, as [`Curve::foot`] gives it; `None` where that
     /// leads more than [`WINDOW`] away from the hint.
     pub(super) fn foot_near(&self, point: Vec2, hint: f64) -> Option<Foot> {
-        let k = self.downhill(self.locate(hint).0, point, hint);
+        let k = self.downhill(self.piece_at(hint), point, hint);
         let foot = self.foot_from(k, point);
-        let s = self.knots[foot.k].s + foot.t * self.knots[foot.k].length;
+        let s = self.station(foot.k, foot.t);
         ((s - hint).abs() <= WINDOW).then_some(foot)
     }
 
@@ -196,18 +211,19 @@ impl Curve {
         k
     }
 
-    /// The foot by Newton's method on (point − curve) · tangent = 0, from the foot on chord `k`.
-    fn foot_from(&self, k: usize, point: Vec2) -> Foot {
-        let last = self.chords.chords.len() - 1;
-        let on_chord = (k, self.chords.chords[k].fraction(point));
-        let first = self.view(on_chord, point);
-        let ((mut k, mut t), mut view) = (on_chord, first);
+    /// The foot by Newton's method on (point − curve) · tangent = 0, from where it is if the piece at chord `k` is an
+    /// arc.
+    fn foot_from(&self, mut k: usize, point: Vec2) -> Foot {
+        let chord = &self.chords.chords[k];
+        let mut t = chord.fraction_of_arc(self.knots[k].turn, point);
+        let (last, on_chord) = (self.chords.chords.len() - 1, k);
+        let mut view = self.view((k, t), point);
         for _ in 0..FOOT_STEPS {
             let Knot { length, turn, .. } = self.knots[k];
             // The heading's own rate of turn: where the road bends suddenly it is not the mean of the curvatures.
-            let step = length * view.ahead / (length - turn * view.left).max(LEAST_STRETCH * length);
-            t += step / length;
-            if step.abs() < ARRIVED && (0.0..=1.0).contains(&t) {
+            let step = view.ahead / (length - turn * view.left).max(LEAST_STRETCH * length);
+            t += step;
+            if (step * length).abs() < ARRIVED && (0.0..=1.0).contains(&t) {
                 break;
             }
             if t > 1.0 && k < last {
@@ -221,16 +237,16 @@ impl Curve {
             }
         }
         // Beyond the centre of a bend Newton's method runs away from the nearest point: then the chord's foot stays.
-        let (found, known) = (view.distance_squared(), first.distance_squared());
-        let runs_away = found > known && found.sqrt() > known.sqrt() + RUN_AWAY;
-        let ((k, t), view) = if runs_away {
-            (on_chord, first)
-        } else {
-            ((k, t), view)
-        };
+        let (found, known) = (view.distance_squared(), chord.distance_squared(point));
+        let sagitta = self.knots[on_chord].length * self.knots[on_chord].turn.abs() / 8.0;
+        if found > known && found.sqrt() > known.sqrt() + sagitta + RUN_AWAY {
+            (k, t) = (on_chord, chord.fraction(point));
+            view = self.view((k, t), point);
+        }
         Foot { k, t, l: view.left }
     }
 
+    #[inline]
     fn view(&self, (k, t): (usize, f64), point: Vec2) -> View {
         let d = point - self.position(k, t);
         let tangent = self.tangent(k, t);

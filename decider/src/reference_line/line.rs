@@ -213,11 +213,8 @@ impl ReferenceLine {
         if (k == 0 && t < 0.0) || (k + 2 == self.samples.len() && t > 1.0) {
             return beyond_the_end(&self.samples[if t < 0.0 { 0 } else { k + 1 }], point);
         }
-        let (a, b) = (self.samples[k].s, self.samples[k + 1].s);
-        SlPoint {
-            s: a + t.clamp(0.0, 1.0) * (b - a),
-            l,
-        }
+        let s = self.curve.station(k, t.clamp(0.0, 1.0));
+        SlPoint { s, l }
     }
 
     fn inside(&self, s: f64) -> bool {
