@@ -228,13 +228,13 @@ fn read_text(path: &Path) -> io::Result<String> {
     let bytes = std::fs::read(path)?;
     String::from_utf8(bytes).or_else(|error| {
         let text = map_format::as_text(error.as_bytes());
-        match commonroad::is_commonroad(&text) {
-            true => Ok(text),
-            false => Err(io::Error::new(
-                io::ErrorKind::InvalidData,
-                "the text is not UTF-8",
-            )),
+        if commonroad::is_commonroad(&text) {
+            return Ok(text);
         }
+        Err(io::Error::new(
+            io::ErrorKind::InvalidData,
+            "the text is not UTF-8",
+        ))
     })
 }
 

@@ -12,6 +12,9 @@ use std::sync::Arc;
 /// Length ahead of the ego that is planned on, m.
 const PLANNED: u32 = 100;
 
+/// Stretch at the end of a line that may still move when the line grows, m: what lies beyond it was not known.
+const OPEN_END: f64 = 20.0;
+
 /// How far beside an ego its own line may be, m: of lines farther off it is not clear which belongs to which.
 const BESIDE: f64 = 1.0;
 
@@ -97,7 +100,7 @@ impl Evenness {
         for s in reach.take_while(|s| *s < new.length()) {
             let point = new.point(s);
             let at = old.to_frenet_near(Vec2::new(point.x, point.y), s - then + there);
-            if at.s >= old.length() || old.sample_at(at.s).lane != new.sample_at(s).lane {
+            if at.s >= old.length() - OPEN_END || old.sample_at(at.s).lane != new.sample_at(s).lane {
                 break;
             }
             let known = old.point(at.s);

@@ -53,7 +53,7 @@ fn lanes_that_meet_head_on_are_told() {
     };
     let warning = told("lanelet2/autoware_vm_03_right_hand.osm").unwrap();
     assert!(
-        warning.starts_with("4 pairs of lanes") && warning.contains("`2253` and `"),
+        warning.starts_with("4 pairs of lanes") && warning.contains("`2257` and `2253`"),
         "{warning}"
     );
     for map in [

@@ -149,9 +149,10 @@ impl LineProvider {
         };
         let car = window.car.and_then(|car| line.station_of(&car));
         let here = car.unwrap_or_else(|| line.line().to_frenet(state.position).s);
-        let line = match here - line.line().start() > LONGEST_BEHIND {
-            true => line.cut_behind(here, KEPT_BEHIND),
-            false => line,
+        let line = if here - line.line().start() > LONGEST_BEHIND {
+            line.cut_behind(here, KEPT_BEHIND)
+        } else {
+            line
         };
         Ok(cleared(line, here))
     }

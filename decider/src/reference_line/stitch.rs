@@ -142,9 +142,10 @@ impl StitchedLine {
             reason = "a length in metres, not negative"
         )]
         let shared = ((common / STEP) as usize + 1).saturating_sub(self.dropped);
-        let kept = match shared + 1 < self.offsets.len() {
-            true => self.settled.min(shared.saturating_sub(OVERLAP)),
-            false => self.settled,
+        let kept = if shared + 1 < self.offsets.len() {
+            self.settled.min(shared.saturating_sub(OVERLAP))
+        } else {
+            self.settled
         };
         let mut anchors: Vec<Anchor> = places.iter().map(|place| anchor(map, *place, vehicle)).collect();
         for (anchor, offset) in anchors.iter_mut().zip(&self.offsets[..kept]) {
