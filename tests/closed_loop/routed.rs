@@ -144,7 +144,7 @@ fn three_lanes_are_changed_around_a_junction() {
     }
 }
 
-/// The longest way of all the CommonRoad maps: to the left where three roads meet.
+/// The longest way of all the `CommonRoad` maps: to the left where three roads meet.
 #[test]
 fn a_junction_of_three_roads_is_crossed() {
     let map = "$MAPS/commonroad/ZAM_Tjunction-1_42_T-1.xml";

@@ -42,6 +42,10 @@ impl Run {
         let settings = Settings::with(&self.settings)?;
         let family = source::family(&self.scenario, &MapCache::new())?;
         self.export.check(&family)?;
+        let seed = match self.problem {
+            Some(id) => family.seed_of_problem(id)?,
+            None => self.seed,
+        };
         if family.is_recorded() {
             // What a scene of other people holds is not always what one expects.
             family
@@ -49,10 +53,6 @@ impl Run {
                 .iter()
                 .for_each(|warning| output::note(&format!("note: {warning}")));
         }
-        let seed = match self.problem {
-            Some(id) => family.seed_of_problem(id)?,
-            None => self.seed,
-        };
         let drawn = family.draw(seed)?;
         let verdict = self.run(&family, &drawn.scenario, &settings)?;
         output::print(&text(&verdict));
