@@ -37,7 +37,7 @@ impl Watch {
         let thread = thread::spawn(move || {
             while !over.load(Ordering::Relaxed) {
                 thread::sleep(LOOK);
-                look(&watched.lock().unwrap_or_else(PoisonError::into_inner));
+                look(watched.lock().unwrap_or_else(PoisonError::into_inner).as_ref());
             }
         });
         Self {
@@ -76,7 +76,7 @@ impl Drop for Watch {
 }
 
 #[expect(clippy::print_stderr, reason = "the last words of a process that ends")]
-fn look(at_hand: &Option<AtHand>) {
+fn look(at_hand: Option<&AtHand>) {
     let Some(at_hand) = at_hand else { return };
     if let Some(excess) = at_hand.meter.excess(at_hand.length) {
         let kept = at_hand.file.with_extension("endless");
