@@ -1,5 +1,7 @@
 //! Scenario files on maps of every format, and what is told about a map when it is opened.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
 use crate::support::map_file;
 use corridor_scenarios::{Family, LoadedMap};
 use std::path::Path;
