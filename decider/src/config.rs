@@ -1,7 +1,9 @@
 //! Every knob of the decider. Names in `path_bounds` are the original's.
 
+use crate::lane_follow_map::{LaneFollowConfig, LaneFollowQuirks};
 use crate::planner::{LANE_FOLLOW, TaskName};
 use crate::tasks::lane_borrow::LaneBorrowConfig;
+use crate::tasks::lane_change::LaneChangeConfig;
 use crate::tasks::path::PathConfig;
 use crate::tasks::path_bounds::PathBoundsConfig;
 use crate::tasks::piecewise_jerk_speed::SpeedConfig;
@@ -14,6 +16,8 @@ use serde::{Deserialize, Serialize};
 pub struct Config {
     /// The tasks of the stage, in the order in which they run.
     pub tasks: Vec<TaskName>,
+    /// When lanes are changed.
+    pub lane_change: LaneChangeConfig,
     /// Path bounds, quirks included.
     pub path_bounds: PathBoundsConfig,
     /// Borrowing a neighbouring lane.
@@ -22,6 +26,8 @@ pub struct Config {
     pub path: PathConfig,
     /// Speed along a path.
     pub speed: SpeedConfig,
+    /// How far the lines along a route reach.
+    pub lane_follow: LaneFollowConfig,
     /// The search over the ST graph along the own lane.
     pub speed_heuristic: SpeedHeuristicConfig,
     /// The same into another lane.
@@ -32,12 +38,14 @@ impl Default for Config {
     fn default() -> Self {
         Self {
             tasks: LANE_FOLLOW.to_vec(),
+            lane_change: LaneChangeConfig::default(),
             path_bounds: PathBoundsConfig::default(),
             lane_borrow: LaneBorrowConfig::default(),
             path: PathConfig::default(),
             speed: SpeedConfig::default(),
             speed_heuristic: SpeedHeuristicConfig::default(),
             speed_heuristic_lane_change: SpeedHeuristicConfig::lane_change(),
+            lane_follow: LaneFollowConfig::default(),
         }
     }
 }
@@ -60,6 +68,10 @@ impl Config {
             path: PathConfig {
                 corner_collision_check: true,
                 ..PathConfig::default()
+            },
+            lane_follow: LaneFollowConfig {
+                quirks: LaneFollowQuirks::apollo(),
+                ..LaneFollowConfig::default()
             },
             ..Self::default()
         }

@@ -151,3 +151,22 @@ pub enum DrawError {
         rejected: Vec<Rejection>,
     },
 }
+/// Why a planning problem cannot be chosen.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoProblem {
+    /// A scenario of this project.
+    #[error("`{0}` is no CommonRoad scenario: only those have planning problems")]
+    NotRecorded(String),
+    /// A scene without a task.
+    #[error("the file has no planning problem")]
+    None,
+    /// A number that is not in the file.
+    #[error("the file has no planning problem `{id}`: expected {known}")]
+    Unknown {
+        /// The number that was asked for.
+        id: i64,
+        /// Those that there are.
+        known: String,
+    },
+}

@@ -2,9 +2,10 @@
 
 mod recorded;
 
-use crate::error::{DrawError, Place, ScenarioError};
+use crate::error::{DrawError, NoProblem, Place, ScenarioError};
 use crate::expectation;
 use crate::import::commonroad;
+use crate::map_format;
 use crate::map_source::{LoadedMap, MapCache};
 use crate::resolve::Draft;
 use crate::resolve::sampler::Sampler;
@@ -16,6 +17,7 @@ use crate::validity::{self, Rejection, Scene};
 use corridor_decider::reference_line::LineQuery;
 use corridor_decider::road::{LaneId, RoadMap};
 use corridor_decider::routing::{BlackList, LaneGraph, Position, RoutingConfig, WayPoint};
+use std::io;
 use std::path::Path;
 use std::sync::Arc;
 use toml::Spanned;
@@ -49,7 +51,12 @@ enum Origin {
     /// A file of this project: seeds draw its numbers.
     Drawn(Box<Template>),
     /// A recorded scene: one scenario for each task in it, by turns.
-    Recorded(Vec<Scenario>),
+    Recorded {
+        /// One for each problem, or for a file without any.
+        scenarios: Vec<Scenario>,
+        /// The numbers of the problems.
+        problems: Vec<i64>,
+    },
 }
 
 /// A scenario file on its road.
@@ -84,7 +91,7 @@ impl Family {
     /// # Errors
     /// [`ScenarioError`] with the place of the first mistake.
     pub fn load_with(path: &Path, maps: &MapCache) -> Result<Self, ScenarioError> {
-        let text = std::fs::read_to_string(path).map_err(|source| ScenarioError::Read {
+        let text = read_text(path).map_err(|source| ScenarioError::Read {
             path: path.to_owned(),
             source,
         })?;
@@ -118,7 +125,7 @@ impl Family {
                 .expect
                 .clone()
                 .unwrap_or_else(|| expectation::usual(&content.command.task)),
-            road: road(&content, &map.map, &place)?,
+            road: road(&content, &map.map, &place)?.with_objects(content.map_objects, &map.objects),
             file: content,
         };
         let first = Sampler::new(0, 0);
@@ -166,12 +173,24 @@ impl Family {
 
     /// Whether it is a scene that others recorded.
     pub fn is_recorded(&self) -> bool {
-        matches!(self.origin, Origin::Recorded(_))
+        matches!(self.origin, Origin::Recorded { .. })
     }
 
     /// Whether every seed gives the same scenario.
     pub fn is_fixed(&self) -> bool {
         self.fixed
+    }
+
+    /// The seed with which a recorded scene is that of one of its planning problems, by its number in the file.
+    ///
+    /// # Errors
+    /// [`NoProblem`] when it is no recorded scene, or has no such problem.
+    pub fn seed_of_problem(&self, id: i64) -> Result<u64, NoProblem> {
+        match &self.origin {
+            Origin::Recorded { problems, .. } if !problems.is_empty() => recorded::seed_of(problems, id),
+            Origin::Recorded { .. } => Err(NoProblem::None),
+            Origin::Drawn(_) => Err(NoProblem::NotRecorded(self.name.clone())),
+        }
     }
 
     /// The scenario of one seed: the first attempt that is possible.
@@ -181,7 +200,7 @@ impl Family {
     pub fn draw(&self, seed: u64) -> Result<Drawn, DrawError> {
         let template = match &self.origin {
             Origin::Drawn(template) => template,
-            Origin::Recorded(scenarios) => return Ok(recorded::draw(scenarios, seed)),
+            Origin::Recorded { scenarios, .. } => return Ok(recorded::draw(scenarios, seed)),
         };
         let mut rejected = Vec::new();
         for attempt in 0..ATTEMPTS {
@@ -202,6 +221,21 @@ impl Family {
             rejected,
         })
     }
+}
+
+/// The text of a file. Scenes of other programs may be in other encodings than scenario files are.
+fn read_text(path: &Path) -> io::Result<String> {
+    let bytes = std::fs::read(path)?;
+    String::from_utf8(bytes).or_else(|error| {
+        let text = map_format::as_text(error.as_bytes());
+        if commonroad::is_commonroad(&text) {
+            return Ok(text);
+        }
+        Err(io::Error::new(
+            io::ErrorKind::InvalidData,
+            "the text is not UTF-8",
+        ))
+    })
 }
 
 impl Template {

@@ -15,6 +15,7 @@ pub mod error;
 mod expectation;
 mod family;
 pub mod goal;
+mod head_on;
 pub mod import;
 mod map_format;
 mod map_source;
@@ -27,7 +28,7 @@ pub mod schema;
 mod starter;
 mod validity;
 
-pub use error::{DrawError, ScenarioError};
+pub use error::{DrawError, NoProblem, ScenarioError};
 pub use family::{Drawn, Family};
 pub use map_format::MapFormat;
 pub use map_source::{LoadedMap, MapCache};

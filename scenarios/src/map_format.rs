@@ -4,6 +4,8 @@
 //! content. Binary maps are kept in hexadecimal behind a first line that says so: twice the size, which compression
 //! takes back.
 
+use crate::head_on;
+use crate::import::opendrive::MapObject;
 use crate::import::{ImportError, apollo, commonroad, lanelet2, opendrive};
 use corridor_decider::road::RoadMap;
 use std::fmt::{self, Write as _};
@@ -56,6 +58,9 @@ pub(crate) const ENDINGS: [&str; 5] = ["xodr", "xml", "osm", "bin", "txt"];
 
 /// The content of a map file as text. Bytes of a text that are not UTF-8 (names in older encodings) are replaced.
 pub(crate) fn as_text(bytes: &[u8]) -> String {
+    if let Some(text) = from_utf16(bytes) {
+        return text;
+    }
     if !is_binary(bytes) {
         return String::from_utf8_lossy(bytes).into_owned();
     }
@@ -67,20 +72,60 @@ pub(crate) fn as_text(bytes: &[u8]) -> String {
     text
 }
 
+/// A text in UTF-16, which begins with a byte order mark.
+fn from_utf16(bytes: &[u8]) -> Option<String> {
+    let unit: fn([u8; 2]) -> u16 = match bytes {
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ => return None,
+    };
+    let units = bytes[2..].chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
+    let text: String = char::decode_utf16(units)
+        .map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER))
+        .collect();
+    text.trim_start().starts_with('<').then_some(text)
+}
+
+/// What a map file holds.
+pub(crate) struct Content {
+    pub(crate) map: Arc<RoadMap>,
+    /// What stands on and beside its roads.
+    pub(crate) objects: Vec<MapObject>,
+    pub(crate) warnings: Vec<String>,
+}
+
 /// Reads a map from the text that [`as_text`] gave.
-pub(crate) fn read(text: &str) -> Result<(Arc<RoadMap>, Vec<String>), ImportError> {
-    match MapFormat::of(text) {
+pub(crate) fn read(text: &str) -> Result<Content, ImportError> {
+    let mut content = match MapFormat::of(text) {
         MapFormat::Apollo => match text.strip_prefix(BINARY) {
-            Some(digits) => read_apollo(&from_hexadecimal(digits)?),
-            None => read_apollo(text.as_bytes()),
+            Some(digits) => read_apollo(&from_hexadecimal(digits)?)?,
+            None => read_apollo(text.as_bytes())?,
         },
-        MapFormat::Lanelet2 => lanelet2::read(text).map(|read| (Arc::new(read.map), read.warnings)),
-        MapFormat::CommonRoad => commonroad::read(text).map(|read| (read.map, read.warnings)),
-        MapFormat::OpenDrive => read_opendrive(text),
+        MapFormat::Lanelet2 => {
+            let read = lanelet2::read(text)?;
+            Content::without_objects(Arc::new(read.map), read.warnings)
+        }
+        MapFormat::CommonRoad => {
+            let read = commonroad::read(text)?;
+            Content::without_objects(read.map, read.warnings)
+        }
+        MapFormat::OpenDrive => read_opendrive(text)?,
+    };
+    content.warnings.extend(head_on::warning(&content.map));
+    Ok(content)
+}
+
+impl Content {
+    fn without_objects(map: Arc<RoadMap>, warnings: Vec<String>) -> Self {
+        Self {
+            map,
+            objects: Vec::new(),
+            warnings,
+        }
     }
 }
 
-fn read_opendrive(text: &str) -> Result<(Arc<RoadMap>, Vec<String>), ImportError> {
+fn read_opendrive(text: &str) -> Result<Content, ImportError> {
     let opendrive::OpenDriveImport {
         map,
         objects,
@@ -90,15 +135,20 @@ fn read_opendrive(text: &str) -> Result<(Arc<RoadMap>, Vec<String>), ImportError
     let standing = objects.iter().filter(|object| !object.kind.is_flat()).count();
     if standing > 0 {
         warnings.push(format!(
-            "{standing} objects of the map that stand beside its roads are not part of scenarios"
+            "{standing} objects of the map are part of scenarios that say `map_objects = true`, where they stand on \
+             a lane"
         ));
     }
-    Ok((Arc::new(map), warnings))
+    Ok(Content {
+        map: Arc::new(map),
+        objects,
+        warnings,
+    })
 }
 
-fn read_apollo(bytes: &[u8]) -> Result<(Arc<RoadMap>, Vec<String>), ImportError> {
+fn read_apollo(bytes: &[u8]) -> Result<Content, ImportError> {
     let (map, warnings) = apollo::to_road_map(&apollo::read_map(bytes)?)?;
-    Ok((Arc::new(map), warnings))
+    Ok(Content::without_objects(Arc::new(map), warnings))
 }
 
 /// Name of the first element behind declarations and comments.
@@ -200,15 +250,30 @@ mod tests {
         let text = crate::maps::embedded("urban_parking").unwrap();
         let objects = r#"<objects><object id="1" type="tree" s="1" t="9"><repeat s="1" length="9" distance="3"/></object>
             <object id="2" type="crosswalk" s="20" t="0" length="3" width="6"/></objects></road>"#;
-        let warnings = read(&text.replace("</road>", objects)).unwrap().1;
-        let told = "4 objects of the map that stand beside its roads are not part of scenarios";
+        let warnings = read(&text.replace("</road>", objects)).unwrap().warnings;
+        let told = "4 objects of the map are part of scenarios that say `map_objects = true`, where they stand on a lane";
         assert_eq!(warnings, [told]);
-        assert!(read(text).unwrap().1.is_empty());
+        assert!(read(text).unwrap().warnings.is_empty());
+    }
+
+    #[test]
+    fn sixteen_bits_a_letter_are_read_too() {
+        let text = "<?xml version='1.0' encoding='utf-16'?><a name='\u{fc}\u{1f697}'/>";
+        let units: Vec<u16> = [0xfeff].into_iter().chain(text.encode_utf16()).collect();
+        let little: Vec<u8> = units.iter().flat_map(|unit| unit.to_le_bytes()).collect();
+        let big: Vec<u8> = units.iter().flat_map(|unit| unit.to_be_bytes()).collect();
+        assert_eq!(
+            (as_text(&little), as_text(&big)),
+            (text.to_owned(), text.to_owned())
+        );
+        assert!(
+            as_text(&[0xff, 0xfe, 0x41]).starts_with(BINARY) || as_text(&[0xff, 0xfe, 0x41]).contains('A')
+        );
     }
 
     #[test]
     fn the_reader_is_chosen_by_content() {
-        let problem = |text: &str| read(text).unwrap_err().to_string();
+        let problem = |text: &str| read(text).err().unwrap().to_string();
         assert!(problem("<html/>").contains("expected <OpenDRIVE>"));
         let lanelet2 = "<!-- no <OpenDRIVE> --><?xml version='1.0'?><osm/>";
         assert_eq!(problem(lanelet2), "the map has no drivable lane");

@@ -1,8 +1,9 @@
 //! Finds and reads the map that a scenario names, once for all its seeds.
 
 use crate::error::{Place, ScenarioError};
+use crate::import::opendrive::MapObject;
 use crate::import::{ImportError, TextPlace};
-use crate::map_format::{self, MapFormat};
+use crate::map_format::{self, Content, MapFormat};
 use crate::maps;
 use corridor_decider::road::RoadMap;
 use std::collections::BTreeMap;
@@ -29,6 +30,8 @@ pub struct LoadedMap {
     pub text: Arc<str>,
     /// What the reader had to leave out or repair.
     pub warnings: Arc<[String]>,
+    /// What the file puts on and beside its roads; only OpenDRIVE has such things.
+    pub objects: Arc<[MapObject]>,
 }
 
 impl LoadedMap {
@@ -44,17 +47,22 @@ impl LoadedMap {
                 if text.trim().is_empty() {
                     return Err(empty());
                 }
-                let (map, warnings) = map_format::read(&text)?;
-                Ok(Self {
-                    map,
-                    text,
-                    warnings: warnings.into(),
-                })
+                let content = map_format::read(&text)?;
+                Ok(Self::new(content, text))
             })
             .map_err(|error| ImportError::InFile {
                 file: path.display().to_string(),
                 error: Box::new(error),
             })
+    }
+
+    fn new(content: Content, text: Arc<str>) -> Self {
+        Self {
+            map: content.map,
+            text,
+            warnings: content.warnings.into(),
+            objects: content.objects.into(),
+        }
     }
 
     /// The format it was read from.
@@ -173,12 +181,8 @@ impl MapCache {
 }
 
 fn read(text: Arc<str>) -> Result<LoadedMap, String> {
-    let (map, warnings) = map_format::read(&text).map_err(|e| e.to_string())?;
-    Ok(LoadedMap {
-        map,
-        text,
-        warnings: warnings.into(),
-    })
+    let content = map_format::read(&text).map_err(|e| e.to_string())?;
+    Ok(LoadedMap::new(content, text))
 }
 
 /// The own maps, for a message.

@@ -1,8 +1,9 @@
 //! The lanes to follow, and the lines along them and beside them.
 
-use corridor_decider::geometry::angle;
+use crate::import::opendrive::{MapObject, ObjectKind};
+use corridor_decider::geometry::{Vec2, angle};
 use corridor_decider::hd_map::HdMap;
-use corridor_decider::reference_line::{LineError, LineProvider, ReferenceLine};
+use corridor_decider::reference_line::{LineError, LineProvider, LineQuery, ReferenceLine};
 use corridor_decider::road::{LaneId, Neighbour, RoadMap, Side};
 use corridor_decider::routing::RoutingResponse;
 use std::collections::BTreeMap;
@@ -14,6 +15,9 @@ const JOIN_TOLERANCE: f64 = 0.5;
 /// How far beyond its destination a route is known, m: what is planned ahead.
 const BEYOND_DESTINATION: f64 = 150.0;
 
+/// How far beside the line the map's objects are looked for, m: the far side of a motorway.
+const OBJECTS_BESIDE: f64 = 30.0;
+
 /// The road of a family: what all its seeds share.
 #[derive(Debug)]
 pub(crate) struct Road {
@@ -24,6 +28,8 @@ pub(crate) struct Road {
     pub(crate) provider: Option<LineProvider>,
     /// Station of the destination on the line, m.
     pub(crate) goal_s: Option<f64>,
+    /// What the map puts on its lanes.
+    pub(crate) objects: Vec<MapObject>,
     /// Length that other lines should have, m.
     reach: f64,
     /// Lines of oncoming traffic, by their first lane; made when first asked for.
@@ -53,6 +59,7 @@ impl Road {
             target_line,
             provider: None,
             goal_s: None,
+            objects: Vec::new(),
             reach,
             others: Mutex::new(BTreeMap::new()),
         })
@@ -78,9 +85,33 @@ impl Road {
             target_line: None,
             provider: Some(provider),
             goal_s: Some(goal_s),
+            objects: Vec::new(),
             reach,
             others: Mutex::new(BTreeMap::new()),
         })
+    }
+
+    /// The road with those of the map's objects that stand on it, if they are `wanted`.
+    pub(crate) fn with_objects(self, wanted: bool, all: &[MapObject]) -> Self {
+        if !wanted {
+            return self;
+        }
+        let objects = all.iter().filter(|object| self.is_obstructed_by(object));
+        let objects = objects.cloned().collect();
+        Self { objects, ..self }
+    }
+
+    /// Whether an object stands on a lane for cars, beside the line.
+    fn is_obstructed_by(&self, object: &MapObject) -> bool {
+        let corners = object.outline.vertices();
+        let middle = corners.iter().sum::<Vec2>() / (corners.len() as f64);
+        let edges = object.outline.edges().map(|(a, b)| (a + b) / 2.0);
+        let mut points = corners.iter().copied().chain(edges).chain([middle]);
+        let at = self.line.to_frenet(middle);
+        let is_beside =
+            at.s >= self.line.start() && at.s <= self.line.length() && at.l.abs() < OBJECTS_BESIDE;
+        let is_solid = !object.kind.is_flat() && object.kind != ObjectKind::Gantry;
+        is_solid && is_beside && points.any(|point| !self.map.lanes_at(point).is_empty())
     }
 
     /// The line straight on from `lane`.

@@ -130,11 +130,11 @@ mod tests {
 
     fn own(name: &str) -> LoadedMap {
         let text = crate::maps::embedded(name).unwrap();
-        let (map, _) = crate::map_format::read(text).unwrap();
         LoadedMap {
-            map,
+            map: crate::map_format::read(text).unwrap().map,
             text: text.into(),
             warnings: Arc::new([]),
+            objects: Arc::new([]),
         }
     }
 

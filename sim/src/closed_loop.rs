@@ -57,7 +57,7 @@ impl ClosedLoop {
             clock: Clock::new(settings.tick, settings.physics.dt),
             world: World::new(scenario, &settings.physics),
             agents: Agents::new(scenario),
-            route: Route::new(scenario),
+            route: Route::new(scenario, &settings.decider.lane_follow),
             decider: Decider::new(scenario, settings),
             tracker: Tracker::new(scenario.vehicle, tracking),
             monitor: Monitor::new(scenario),

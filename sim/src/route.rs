@@ -1,7 +1,7 @@
 //! What the router tells the decider: the command of the moment and the lines to plan along.
 
 use corridor_decider::frame::{Command, EgoState, FrameLine};
-use corridor_decider::lane_follow_map::VehicleState;
+use corridor_decider::lane_follow_map::{LaneFollowConfig, VehicleState};
 use corridor_decider::reference_line::{LineProvider, LineQuery, ProviderError, ReferenceLine, RouteLine};
 use corridor_scenarios::Scenario;
 use std::sync::Arc;
@@ -38,11 +38,11 @@ enum Guide {
 }
 
 impl Route {
-    pub(crate) fn new(scenario: &Scenario) -> Self {
+    pub(crate) fn new(scenario: &Scenario, follow: &LaneFollowConfig) -> Self {
         let (guide, known) = match &scenario.provider {
             Some(provider) => (
                 Guide::Routed {
-                    provider: Box::new(provider.clone()),
+                    provider: Box::new(configured(provider, follow)),
                     last: Vec::new(),
                     lost: None,
                 },
@@ -137,6 +137,12 @@ impl Route {
         }
         (places, self.known[known_before..].to_vec())
     }
+}
+
+/// The provider with other knobs; the route was followed once already, so it can be again.
+fn configured(provider: &LineProvider, follow: &LaneFollowConfig) -> LineProvider {
+    let usual = || provider.clone();
+    usual().with_config(follow.clone()).unwrap_or_else(|_| usual())
 }
 
 fn offered(line: RouteLine) -> FrameLine {

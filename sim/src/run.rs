@@ -110,7 +110,9 @@ pub fn header(family: &Family, scenario: &Scenario, overrides: &[String], settin
             .map(|obstacle| obstacle.name.clone())
             .collect(),
         lanes: outline::near(scenario.map.lanes(), &driven),
-        lines: Route::new(scenario).first_lines().to_vec(),
+        lines: Route::new(scenario, &settings.decider.lane_follow)
+            .first_lines()
+            .to_vec(),
         tick: settings.tick,
     }
 }

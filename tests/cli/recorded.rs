@@ -66,3 +66,41 @@ fn what_is_no_scene_or_cannot_be_exported_says_so() {
         &["is no CommonRoad scenario"],
     );
 }
+
+/// Each planning problem is a task of its own; they are chosen by their numbers.
+#[test]
+fn a_planning_problem_is_chosen_by_its_number() {
+    let folder = Folder::new("problems");
+    let (from, to) = (
+        SCENE.find("  <planningProblem").unwrap(),
+        SCENE.find("</commonRoad>").unwrap(),
+    );
+    let second = SCENE[from..to]
+        .replace("\"100\"", "\"-7\"")
+        .replace("<x>20</x>", "<x>60</x>");
+    folder.put(
+        "scene.xml",
+        SCENE.replace("</commonRoad>", &format!("{second}</commonRoad>")),
+    );
+    let run = |arguments: &[&str]| {
+        let all: Vec<&str> = ["run", "scene.xml"].iter().chain(arguments).copied().collect();
+        let run = folder.run(&all);
+        assert_eq!(run.code, Some(0), "{run:?}");
+        run.out.lines().last().unwrap().to_owned()
+    };
+    let (first, second) = (run(&["--problem", "100"]), run(&["--problem=-7"]));
+    assert_ne!(first, second);
+    assert_eq!((first, second), (run(&["--seed", "1"]), run(&["--seed", "2"])));
+    folder.refuses(
+        &["run", "scene.xml", "--problem", "5"],
+        &["no planning problem `5`: expected `100`, `-7`"],
+    );
+    folder.refuses(
+        &["run", "pull_over_between_parked", "--problem", "5"],
+        &["is no CommonRoad scenario"],
+    );
+    folder.refuses(
+        &["run", "scene.xml", "--problem", "100", "--seed", "2"],
+        &["cannot be used with"],
+    );
+}

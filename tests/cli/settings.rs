@@ -40,5 +40,9 @@ fn a_wrong_setting_says_what_can_be_set() {
         &["run", "--set", "physics.dt=0"],
         &["`physics.dt=0`", "must be 0.0001 to"],
     );
+    folder.refuses(
+        &["run", "--set", "decider.lane_follow.look_ahead=9"],
+        &["`decider.lane_follow` has", "look_ahead_short"],
+    );
     folder.refuses(&["run", "--set", "profile=waymo"], &["`default` and `apollo`"]);
 }

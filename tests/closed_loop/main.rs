@@ -5,6 +5,7 @@
 
 mod alone;
 mod catalog;
+mod evenness;
 mod failing;
 mod order;
 mod repeat;

@@ -1,13 +1,11 @@
 //! Drives to a destination: over junctions, over changes of lane, on a map of each format.
 
-use corridor_decider::geometry::angle;
-use corridor_decider::reference_line::ReferenceLine;
+use crate::evenness::Evenness;
 use corridor_scenarios::{Family, MapCache, ScenarioError};
 use corridor_sim::run::run_recorded;
 use corridor_sim::settings::Settings;
 use corridor_sim::trace::Trace;
 use std::path::Path;
-use std::sync::Arc;
 
 /// A run of a scenario written here; `None`, said on the way, where its map is not at hand.
 fn drive(text: &str) -> Option<Trace> {
@@ -24,9 +22,10 @@ fn drive(text: &str) -> Option<Trace> {
     Some(run_recorded(&family, &drawn.scenario, &[], &Settings::default()))
 }
 
+/// A drive from one lane to another; to the end of it, as far as the road goes on behind it.
 fn scenario(map: &str, from: &str, to: &str, speed: f64) -> String {
     format!(
-        "description = \"To a destination.\"\nmap = \"{map}\"\ncruise_speed = {speed:.1}\ntimeout = 240.0\n\
+        "name = \"{from} to {to}\"\ndescription = \"To a destination.\"\nmap = \"{map}\"\ncruise_speed = {speed:.1}\ntimeout = 240.0\n\
          [ego]\nlane = \"{from}\"\ns = 5.0\n[destination]\nlane = \"{to}\"\n"
     )
 }
@@ -43,28 +42,20 @@ fn arrives(trace: &Trace, least: f64) {
             .and_then(|m| m.value)
     };
     assert!(metric("distance").unwrap() >= least, "{:?}", metric("distance"));
-    for line in &trace.header.lines {
-        let (heading, curvature) = roughness(line);
-        assert!(
-            heading < 0.015,
-            "a heading jumps by {heading} rad against its curvature"
-        );
-        assert!(
-            curvature < 0.2,
-            "a curvature changes by {curvature} 1/m in a metre"
-        );
-    }
+    let even = Evenness::of(trace);
+    tell(&format!("{}: {even}", trace.header.scenario));
+    assert!(even.heading < 0.015 && even.curvature < 0.2, "{even}");
+    // What has been planned on stays where it is.
+    assert!(even.s_jump < 1e-6 && even.l_jump < 1e-6, "{even}");
+    assert!(even.heading_jump < 1e-6 && even.curvature_jump < 1e-6, "{even}");
 }
 
-/// Largest step of the heading beyond what the curvature makes it turn, rad, and of the curvature per metre, 1/m².
-fn roughness(line: &Arc<ReferenceLine>) -> (f64, f64) {
-    let steps = line.samples().windows(2).map(|pair| {
-        let (a, b) = (pair[0].point, pair[1].point);
-        let ds = pair[1].s - pair[0].s;
-        let turned = angle::difference(b.theta, a.theta) - f64::midpoint(a.kappa, b.kappa) * ds;
-        (turned.abs(), (b.kappa - a.kappa).abs() / ds)
-    });
-    steps.fold((0.0, 0.0), |x, y| (f64::max(x.0, y.0), f64::max(x.1, y.1)))
+#[expect(
+    clippy::print_stdout,
+    reason = "whoever looks for the figures finds them here"
+)]
+fn tell(what: &str) {
+    println!("{what}");
 }
 
 #[test]
@@ -105,5 +96,70 @@ fn borregas_avenue_is_driven() {
     let map = "$MAPS/apollo/borregas_ave.base_map.bin";
     if let Some(trace) = drive(&scenario(map, "lane_19", "lane_9", 10.0)) {
         arrives(&trace, 280.0);
+    }
+}
+
+/// A residential street with lanelets of a few metres, in which a lanelet serves both directions.
+#[test]
+fn forty_eight_lanelets_of_a_town_are_driven() {
+    let map = "$MAPS/lanelet2/mapping_example.osm";
+    if let Some(trace) = drive(&scenario(map, "45572", "45262_back", 8.0)) {
+        arrives(&trace, 360.0);
+    }
+}
+
+/// The longest way on this map: to a roundabout of 3 m radius at the end of the street and back on the same lanelets.
+/// A line that lies on itself would have the car on the wrong half of it.
+#[test]
+fn a_street_is_driven_to_its_end_and_back() {
+    let map = "$MAPS/lanelet2/mapping_example.osm";
+    if let Some(trace) = drive(&scenario(map, "45572", "45566", 8.0)) {
+        arrives(&trace, 500.0);
+    }
+}
+
+/// Over two changes of lane to a ramp that leads under the road that it has left.
+#[test]
+fn a_ramp_under_its_own_road_is_driven() {
+    let map = "$MAPS/lanelet2/mapping_example.osm";
+    if let Some(trace) = drive(&scenario(map, "1234379034591142988", "9037740909199276460", 8.0)) {
+        arrives(&trace, 280.0);
+    }
+}
+
+#[test]
+fn a_lane_is_changed_between_lanelets_of_a_town() {
+    let map = "$MAPS/lanelet2/mapping_example.osm";
+    if let Some(trace) = drive(&scenario(map, "45216", "45154", 10.0)) {
+        arrives(&trace, 295.0);
+    }
+}
+
+/// The longest way on this map: three changes of lane before and behind a junction.
+#[test]
+fn three_lanes_are_changed_around_a_junction() {
+    let map = "$MAPS/lanelet2/autoware_vm_03_right_hand.osm";
+    if let Some(trace) = drive(&scenario(map, "2249", "2242", 8.0)) {
+        arrives(&trace, 155.0);
+    }
+}
+
+/// The longest way of all the `CommonRoad` maps: to the left where three roads meet.
+#[test]
+fn a_junction_of_three_roads_is_crossed() {
+    let map = "$MAPS/commonroad/ZAM_Tjunction-1_42_T-1.xml";
+    for (from, to) in [("50195", "50203"), ("50205", "50197")] {
+        if let Some(trace) = drive(&scenario(map, from, to, 8.0)) {
+            arrives(&trace, 300.0);
+        }
+    }
+}
+
+/// From the outermost lane of a motorway to the innermost one: five changes within 200 m.
+#[test]
+fn five_lanes_are_changed_to_leave_a_motorway() {
+    let map = "$MAPS/commonroad/USA_US101-3_3_T-1.xml";
+    if let Some(trace) = drive(&scenario(map, "31", "22", 12.0)) {
+        arrives(&trace, 155.0);
     }
 }

@@ -45,7 +45,7 @@ fn own_ending(target: &str) -> &'static str {
         "apollo_binary" => ".apollo.bin",
         "apollo_text" => ".apollo.txt",
         "apollo_routing" => ".routing.txt",
-        "scenario" => ".toml",
+        "scenario" | "planted_panic" | "planted_loop" | "planted_hunger" => ".toml",
         _ => ".trace",
     }
 }

@@ -4,7 +4,9 @@
 //! checked. Work is the time that this thread was on a processor, which other load does not lengthen as it does
 //! the time on a wall; the limit is far above what any input takes and below what anyone would call a hang.
 
+use crate::setting;
 use std::fs;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Most memory that any input may take, bytes: 5 million cross-sections, up to which importers go, with the index
@@ -14,22 +16,30 @@ const MEMORY: u64 = 2 << 30;
 /// Memory for every byte of a file beyond that: trees of XML and text take some dozens.
 const MEMORY_PER_BYTE: u64 = 200;
 
-/// Most time on a processor, unoptimised.
-const WORK: Duration = Duration::from_secs(30);
+/// Most time on a processor, unoptimised, s.
+const WORK: u64 = 30;
 
 /// What the machine counted before an input.
 pub(crate) struct Meter {
     memory: Option<u64>,
     work: Option<Duration>,
+    /// Where the machine counts the time of the thread that this was started on.
+    counted: Option<PathBuf>,
+    /// Most time on a processor.
+    allowed: Duration,
 }
 
 impl Meter {
     pub(crate) fn start() -> Self {
         // 5: sets the peak back to what is in use.
         let is_reset = fs::write("/proc/self/clear_refs", "5").is_ok();
+        let thread = fs::read_link("/proc/thread-self").ok();
+        let counted = thread.map(|thread| Path::new("/proc").join(thread).join("schedstat"));
         Self {
             memory: is_reset.then(peak).flatten(),
-            work: on_processor(),
+            work: counted.as_deref().and_then(on_processor),
+            counted,
+            allowed: Duration::from_secs(setting("CORRIDOR_FUZZ_SECONDS", WORK)),
         }
     }
 
@@ -38,7 +48,7 @@ impl Meter {
         let memory = self.memory.zip(peak()).map(|(from, to)| to.saturating_sub(from));
         let work = self
             .work
-            .zip(on_processor())
+            .zip(self.counted.as_deref().and_then(on_processor))
             .map(|(from, to)| to.saturating_sub(from));
         (memory.unwrap_or_default(), work.unwrap_or_default())
     }
@@ -50,7 +60,8 @@ impl Meter {
         if memory > allowed {
             return Some(format!("took {memory} bytes of memory, {allowed} are allowed"));
         }
-        (work > WORK).then(|| format!("took {work:?} of processor, {WORK:?} are allowed"))
+        let allowed = self.allowed;
+        (work > allowed).then(|| format!("took {work:?} of processor, {allowed:?} are allowed"))
     }
 }
 
@@ -62,9 +73,9 @@ fn peak() -> Option<u64> {
     Some(kilobytes << 10)
 }
 
-/// How long this thread was on a processor.
-fn on_processor() -> Option<Duration> {
-    let counted = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+/// How long a thread was on a processor.
+fn on_processor(counted: &Path) -> Option<Duration> {
+    let counted = fs::read_to_string(counted).ok()?;
     let nanoseconds = counted.split_whitespace().next()?.parse().ok()?;
     Some(Duration::from_nanos(nanoseconds))
 }

@@ -4,12 +4,14 @@
 //! The inputs are the same in every run: `corpus` says what is damaged, `mutate` how, `targets` who reads it, `limits`
 //! what that may cost. `CORRIDOR_FUZZ_INPUTS` multiplies the number of inputs and `CORRIDOR_FUZZ_SEED` chooses
 //! others, for a longer hunt. The input at hand lies in a file while it is read, so that one that ends the
-//! whole process is not lost.
+//! whole process is not lost; `watch` ends it when an input is read without end (`CORRIDOR_FUZZ_SECONDS` says how long that is).
 
 mod corpus;
 mod limits;
 mod mutate;
+mod planted;
 mod targets;
+mod watch;
 
 use corpus::corpus;
 use limits::Meter;
@@ -18,6 +20,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use targets::{Outcome, TARGETS, Target};
+use watch::Watch;
 
 /// Memory is counted for the whole process, so only one target is at work at a time.
 static ALONE: Mutex<()> = Mutex::new(());
@@ -44,9 +47,10 @@ fn at_hand(name: &str) -> PathBuf {
 }
 
 /// Reads one input. A fault is kept beside the input at hand.
-fn try_one(name: &str, target: Target, bytes: &[u8], tally: &mut Tally) {
+fn try_one(name: &str, target: Target, bytes: &[u8], watch: &Watch, tally: &mut Tally) {
     let file = at_hand(name);
     std::fs::write(&file, bytes).expect("the target folder can be written to");
+    watch.begin(&file, bytes.len());
     let meter = Meter::start();
     let fault = match catch_unwind(AssertUnwindSafe(|| target(bytes))) {
         Ok(Outcome::Refused(message)) if message.trim().is_empty() => {
@@ -62,6 +66,7 @@ fn try_one(name: &str, target: Target, bytes: &[u8], tally: &mut Tally) {
         }
         Err(_) => Some("panicked".to_owned()),
     };
+    watch.end();
     let (memory, work) = meter.read();
     tally.worst = (tally.worst.0.max(memory), tally.worst.1.max(work));
     if let Some(fault) = fault.or_else(|| meter.excess(bytes.len())) {
@@ -74,11 +79,10 @@ fn try_one(name: &str, target: Target, bytes: &[u8], tally: &mut Tally) {
 /// The own files as they are, and `inputs` damaged ones.
 fn fuzz(name: &str, inputs: u64) {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    let (_, target) = TARGETS
-        .into_iter()
-        .find(|(known, _)| *known == name)
-        .expect("a target");
+    let mut targets = TARGETS.into_iter().chain(planted::TARGETS);
+    let (_, target) = targets.find(|(known, _)| *known == name).expect("a target");
     let corpus = corpus(name);
+    let watch = Watch::start();
     let mut tally = Tally::default();
     for (file, bytes) in &corpus {
         let outcome = target(bytes);
@@ -92,7 +96,7 @@ fn fuzz(name: &str, inputs: u64) {
         let (_, original) = &corpus[mutator.below(corpus.len())];
         let (_, other) = &corpus[mutator.below(corpus.len())];
         let bytes = mutator.damaged(original, other);
-        try_one(name, target, &bytes, &mut tally);
+        try_one(name, target, &bytes, &watch, &mut tally);
         if tally.faults.len() > 9 {
             break;
         }

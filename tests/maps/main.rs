@@ -8,5 +8,6 @@ mod apollo;
 mod commonroad;
 mod lanelet2;
 mod opendrive;
+mod scenarios;
 mod sound;
 mod support;

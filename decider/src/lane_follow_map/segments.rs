@@ -50,6 +50,8 @@ pub struct RouteSegments {
     pub stop_for_destination: bool,
     /// Where the route leaves them or ends, if that is on them.
     pub route_end_waypoint: Option<LaneWaypoint>,
+    /// The place on them that the car is at or beside.
+    pub car: Option<LaneWaypoint>,
 }
 
 /// Where a point lies beside route segments.

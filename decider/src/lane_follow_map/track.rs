@@ -3,6 +3,7 @@
 //! World frame, metres, radians. Source: the original's `PncMap::UpdateVehicleState` and `PncMap::GetRouteSegments`.
 
 use super::extend::Extension;
+use super::segments::RouteProjection;
 use super::{LaneFollowConfig, PassageId, Route, RouteError, RouteSegments};
 use crate::geometry::{Vec2, angle};
 use crate::hd_map::{HdMap, LaneWaypoint};
@@ -104,6 +105,18 @@ impl LaneFollowMap {
             route: None,
             ego: EgoOnRoute::default(),
         }
+    }
+
+    /// The same map and route, followed with other knobs from the start.
+    ///
+    /// # Errors
+    /// [`RouteError`] when the route cannot be followed with them.
+    pub fn with_config(self, config: LaneFollowConfig) -> Result<Self, RouteError> {
+        let mut changed = Self::new(self.map, config);
+        if let Some(route) = self.route {
+            changed.update_route(route.response().clone())?;
+        }
+        Ok(changed)
     }
 
     /// The route, if there is one.
@@ -281,10 +294,10 @@ impl LaneFollowMap {
         let own = route.entries()[entry].passage;
         let mut found = Vec::new();
         for passage in self.neighbour_passages(own) {
-            if let Some((segments, s, l)) = self.beside_car(route, passage, own, state.position) {
-                let extended = self.extend(&segments, s - back, s + ahead);
+            if let Some((segments, at)) = self.beside_car(route, passage, own, state.position) {
+                let extended = self.extend(&segments, at.s - back, at.s + ahead);
                 let extended = extended.ok_or(FollowError::NoStretch { back, ahead })?;
-                found.push(self.with_properties(route, extended, &segments, (passage, own), l));
+                found.push(self.with_properties(route, extended, &segments, (passage, own), at));
             }
         }
         if found.is_empty() {
@@ -293,14 +306,14 @@ impl LaneFollowMap {
         Ok(found)
     }
 
-    /// A passage, and where along and aside of it the car is; `None` for one that the car cannot get on.
+    /// A passage, and where on it the car is; `None` for one that the car cannot get on.
     fn beside_car(
         &self,
         route: &Route,
         passage: PassageId,
         own: PassageId,
         position: Vec2,
-    ) -> Option<(RouteSegments, f64, f64)> {
+    ) -> Option<(RouteSegments, RouteProjection)> {
         let segments = route.passage_segments(&self.map, passage)?;
         let ego = self.ego.waypoint?;
         let point = if passage == own {
@@ -310,7 +323,7 @@ impl LaneFollowMap {
         };
         let at = segments.project(&self.map, point)?;
         let usable = passage == own || segments.can_drive_from(&self.map, &ego);
-        usable.then_some((segments, at.s, at.l))
+        usable.then_some((segments, at))
     }
 
     /// What the route says about a passage, written on its lengthened segments.
@@ -320,7 +333,7 @@ impl LaneFollowMap {
         extended: RouteSegments,
         segments: &RouteSegments,
         (id, own): (PassageId, PassageId),
-        l: f64,
+        at: RouteProjection,
     ) -> RouteSegments {
         let passage = route.passage(id);
         let end = segments.last_waypoint().filter(|end| extended.contains(end));
@@ -331,11 +344,12 @@ impl LaneFollowMap {
             next_action: passage.map_or(ChangeLaneType::Forward, |passage| passage.change_lane_type),
             previous_action: match id == own {
                 true => ChangeLaneType::Forward,
-                false if l > 0.0 => ChangeLaneType::Right,
+                false if at.l > 0.0 => ChangeLaneType::Right,
                 false => ChangeLaneType::Left,
             },
             stop_for_destination: self.ego.stop_for_destination,
             route_end_waypoint: end,
+            car: Some(at.waypoint),
             ..extended
         }
     }

@@ -2,7 +2,7 @@
 
 use super::plan::LinePlan;
 use super::stage;
-use super::task::Part;
+use super::task::{Part, TaskName};
 use crate::config::Config;
 use crate::context::{Context, LastPath, LastTrajectory};
 use crate::decision::{Candidate, Decision, FallbackCause, PullOverTarget};
@@ -71,9 +71,12 @@ impl Planner {
                     *context = memory;
                     return conclude(plan, context, None, fails);
                 }
-                _ => {
+                result => {
                     context.lane_change = memory.lane_change;
                     context.bounds.change_lane = memory.bounds.change_lane;
+                    if !matches!(result, Err((TaskName::LaneChange, _))) {
+                        lane_change::give_up(&mut context.lane_change, frame.time);
+                    }
                     reports = plan.reports;
                 }
             }

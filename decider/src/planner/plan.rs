@@ -3,6 +3,7 @@
 use crate::decision::{Assessment, Rejection, Stop, TaskReport};
 use crate::tasks::path::Path;
 use crate::tasks::path_bounds::{Borrow, Label, PathBounds};
+use crate::tasks::rss::RssState;
 use crate::tasks::scene::Scene;
 use crate::frame::ObstacleId;
 use crate::st_graph::SpeedData;
@@ -46,6 +47,8 @@ pub struct LinePlan<'a> {
     pub stop: Option<Stop>,
     /// Speed along the chosen path (speed).
     pub speed: Option<SpeedData>,
+    /// Whether the gap ahead is safe (RSS).
+    pub rss: Option<RssState>,
     /// What each task that ran had to say.
     pub reports: Vec<TaskReport>,
 }
@@ -70,6 +73,7 @@ impl<'a> LinePlan<'a> {
             wall: None,
             stop: None,
             speed: None,
+            rss: None,
             reports: Vec::new(),
         }
     }

@@ -16,8 +16,9 @@ impl TaskName {
             Self::LaneChange | Self::LaneBorrow => format!("{} moving obstacles", scene.moving.len()),
             Self::PathReuse => String::from("the last path"),
             Self::PathBounds => format!("{} obstacles, {} sides", scene.obstacles.len(), plan.borrow.len()),
-            Self::PiecewiseJerkPath => format!("{} bounds", plan.bounds.bounds.len()),
+            Self::PiecewiseJerkPath | Self::SampledPath => format!("{} bounds", plan.bounds.bounds.len()),
             Self::PathAssessment => format!("{} paths", plan.candidates.iter().flatten().count()),
+            Self::Rss => format!("{} obstacles", scene.obstacles.len()),
             Self::PathDecider => format!("{} standing obstacles", scene.bodies.len()),
             Self::SpeedHeuristic | Self::SpeedDecider | Self::SpeedBoundsFinal | Self::PiecewiseJerkSpeed => {
                 format!("{} obstacles on the path", plan.on_path.len())
@@ -36,7 +37,7 @@ impl TaskName {
             Self::PathReuse => String::from(if plan.last_path.is_some() { "offered" } else { "none" }),
             Self::LaneBorrow => format!("{} sides", plan.borrow.len()),
             Self::PathBounds => list(plan.bounds.bounds.iter().map(|bound: &PathBound| bound.label)),
-            Self::PiecewiseJerkPath => {
+            Self::PiecewiseJerkPath | Self::SampledPath => {
                 let found = plan.candidates.iter().flatten().filter(|found| found.is_ok());
                 format!("{} paths", found.count())
             }
@@ -51,6 +52,10 @@ impl TaskName {
             Self::SpeedHeuristic => way(plan.heuristic.as_ref()),
             Self::SpeedDecider | Self::SpeedBoundsFinal => decided(plan),
             Self::PiecewiseJerkSpeed => way(plan.speed.as_ref()),
+            Self::Rss => plan.rss.map_or_else(String::new, |rss| {
+                let verdict = if rss.is_safe { "safe" } else { "unsafe" };
+                format!("{verdict}: {:.1} m, {:.1} m wanted", rss.gap, rss.safe_distance)
+            }),
         }
     }
 }

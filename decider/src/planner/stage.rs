@@ -6,7 +6,7 @@ use crate::context::Context;
 use crate::decision::TaskReport;
 
 /// The tasks of lane following, in the original's order.
-pub const LANE_FOLLOW: [TaskName; 13] = [
+pub const LANE_FOLLOW: [TaskName; 14] = [
     TaskName::LaneChange,
     TaskName::PathReuse,
     TaskName::LaneBorrow,
@@ -20,6 +20,7 @@ pub const LANE_FOLLOW: [TaskName; 13] = [
     TaskName::SpeedDecider,
     TaskName::SpeedBoundsFinal,
     TaskName::PiecewiseJerkSpeed,
+    TaskName::Rss,
 ];
 
 /// Runs tasks in order. `fails` says which of them are to fail, whatever they would find.

@@ -8,7 +8,7 @@ use crate::tasks::path_bounds::PathBoundsError;
 use crate::tasks::speed_decider::SpeedDeciderError;
 use crate::tasks::speed_heuristic::SpeedHeuristicError;
 use crate::tasks::{
-    lane_borrow, lane_change, path, path_assessment, path_bounds, path_decider, path_reuse, piecewise_jerk_speed,
+    lane_borrow, lane_change, path, path_assessment, path_bounds, path_decider, path_reuse, piecewise_jerk_speed, rss,
     rule_based_stop, speed_bounds, speed_decider, speed_heuristic,
 };
 use serde::{Deserialize, Serialize};
@@ -28,6 +28,8 @@ pub enum TaskName {
     PathBounds,
     /// The best path inside each bound.
     PiecewiseJerkPath,
+    /// The same, sampled instead of optimised.
+    SampledPath,
     /// Which of them is driven.
     PathAssessment,
     /// How the path passes each standing obstacle.
@@ -44,6 +46,8 @@ pub enum TaskName {
     SpeedBoundsFinal,
     /// The smoothest speed profile that keeps them.
     PiecewiseJerkSpeed,
+    /// Whether the gap ahead is safe in the sense of RSS.
+    Rss,
 }
 
 /// A part of the planner that can be made to fail, to see what comes of it.
@@ -88,6 +92,9 @@ pub enum TaskError {
     /// The optimiser gave up.
     #[error("the optimiser gave up")]
     NotSolved,
+    /// The gap ahead is shorter than RSS asks for, and that is a veto.
+    #[error("the gap ahead is shorter than is safe")]
+    Unsafe,
     /// A failure asked for from outside, to see what comes of it.
     #[error("failed on request")]
     OnRequest,
@@ -101,6 +108,7 @@ impl TaskName {
             Self::LaneBorrow => lane_borrow::run,
             Self::PathBounds => path_bounds::run,
             Self::PiecewiseJerkPath => path::run,
+            Self::SampledPath => path::run_sampled,
             Self::PathAssessment => path_assessment::run,
             Self::PathDecider => path_decider::run,
             Self::RuleBasedStop => rule_based_stop::run,
@@ -109,6 +117,7 @@ impl TaskName {
             Self::SpeedDecider => speed_decider::run,
             Self::SpeedBoundsFinal => speed_bounds::run_final,
             Self::PiecewiseJerkSpeed => piecewise_jerk_speed::run,
+            Self::Rss => rss::run,
         }
     }
 }

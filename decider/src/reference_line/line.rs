@@ -1,8 +1,9 @@
 //! A reference line along the centre lines of a sequence of lanes.
 
 use super::curve::Curve;
+use super::foot::Foot;
 use super::query::{LineQuery, SlPoint};
-use crate::geometry::{Vec2, angle, cross};
+use crate::geometry::{Vec2, angle};
 use crate::road::{BoundaryType, LaneId, LanePoint, Neighbour, RoadMap, Side};
 use crate::tasks::path_bounds::{Station, station};
 use serde::{Deserialize, Serialize};
@@ -207,20 +208,13 @@ impl ReferenceLine {
         }
     }
 
-    /// Frenet coordinates of a point whose foot is at fraction `t` of the chord behind sample `k`.
-    fn frenet_at(&self, (k, t): (usize, f64), point: Vec2) -> SlPoint {
+    /// Frenet coordinates of a point with a given foot.
+    fn frenet_at(&self, Foot { k, t, l }: Foot, point: Vec2) -> SlPoint {
         if (k == 0 && t < 0.0) || (k + 2 == self.samples.len() && t > 1.0) {
             return beyond_the_end(&self.samples[if t < 0.0 { 0 } else { k + 1 }], point);
         }
-        let t = t.clamp(0.0, 1.0);
-        let at = self.curve.between(k, t);
-        let (sin, cos) = angle::sin_cos(at.theta);
-        let d = Vec2::new(point.x - at.x, point.y - at.y);
-        let (a, b) = (&self.samples[k], &self.samples[k + 1]);
-        SlPoint {
-            s: a.s + t * (b.s - a.s),
-            l: cross(Vec2::new(cos, sin), d),
-        }
+        let s = self.curve.station(k, t.clamp(0.0, 1.0));
+        SlPoint { s, l }
     }
 
     fn inside(&self, s: f64) -> bool {

@@ -3,7 +3,9 @@
 //! Stations `s` run from the line's first point; `l` is positive to the left. A line is self-contained:
 //! whoever has one needs no map. Semantics follow the original's `ReferenceLine` and `Path`.
 
+mod clear;
 mod curve;
+mod foot;
 mod line;
 mod provider;
 mod query;

@@ -4,6 +4,7 @@
 //! Where the original smooths on a thread of its own and takes what is ready, here a line grows when the car needs more
 //! of it, at the same place in every run.
 
+use super::clear::{Cleared, cleared};
 use super::line::LineError;
 use super::query::LineQuery;
 use super::stitch::StitchedLine;
@@ -60,7 +61,7 @@ pub struct LineProvider {
     roads: Arc<RoadMap>,
     follow: LaneFollowMap,
     vehicle: VehicleParams,
-    lines: Vec<StitchedLine>,
+    lines: Vec<Cleared>,
 }
 
 impl LineProvider {
@@ -89,6 +90,18 @@ impl LineProvider {
         Self { vehicle, ..self }
     }
 
+    /// The same with other knobs of the lane-follow map.
+    ///
+    /// # Errors
+    /// [`ProviderError`] when the route cannot be followed with them.
+    pub fn with_config(self, config: LaneFollowConfig) -> Result<Self, ProviderError> {
+        Ok(Self {
+            follow: self.follow.with_config(config)?,
+            lines: Vec::new(),
+            ..self
+        })
+    }
+
     /// What is known of the route and the car on it.
     pub fn lane_follow_map(&self) -> &LaneFollowMap {
         &self.follow
@@ -108,7 +121,7 @@ impl LineProvider {
             match self.line_for(state, &window) {
                 Ok(line) => {
                     lines.push(RouteLine {
-                        line: Arc::clone(line.line()),
+                        line: Arc::clone(line.line.line()),
                         segments: window,
                     });
                     kept.push(line);
@@ -122,29 +135,26 @@ impl LineProvider {
     }
 
     /// A line that holds a window: one of the last tick's, grown if it has to be, else a new one.
-    fn line_for(
-        &mut self,
-        state: &VehicleState,
-        window: &RouteSegments,
-    ) -> Result<StitchedLine, ProviderError> {
-        if let Some(line) = self.lines.iter().find(|line| line.covers(&window.segments)) {
-            return Ok(line.clone());
+    fn line_for(&mut self, state: &VehicleState, window: &RouteSegments) -> Result<Cleared, ProviderError> {
+        let mut known = self.lines.iter();
+        if let Some(known) = known.find(|known| known.line.covers(&window.segments) || known.serves(window)) {
+            return Ok(known.clone());
         }
         let longer = self.follow.extend(window, 0.0, window.length() + EXTENSION);
         let chain = longer.as_ref().unwrap_or(window).segments.clone();
-        for line in &self.lines {
-            let Some(longer) = line.led_on(&self.roads, &chain, &self.vehicle) else {
-                continue;
-            };
-            let longer = longer?;
-            let here = longer.line().to_frenet(state.position).s;
-            return Ok(if here - longer.line().start() > LONGEST_BEHIND {
-                longer.cut_behind(here, KEPT_BEHIND)
-            } else {
-                longer
-            });
-        }
-        Ok(StitchedLine::new(&self.roads, chain, &self.vehicle)?)
+        let led_on = |known: &Cleared| known.line.led_on(&self.roads, &chain, &self.vehicle);
+        let line = match self.lines.iter().find_map(led_on) {
+            Some(longer) => longer?,
+            None => StitchedLine::new(&self.roads, chain, &self.vehicle)?,
+        };
+        let car = window.car.and_then(|car| line.station_of(&car));
+        let here = car.unwrap_or_else(|| line.line().to_frenet(state.position).s);
+        let line = if here - line.line().start() > LONGEST_BEHIND {
+            line.cut_behind(here, KEPT_BEHIND)
+        } else {
+            line
+        };
+        Ok(cleared(line, here))
     }
 }
 

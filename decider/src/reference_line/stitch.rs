@@ -9,7 +9,7 @@ use super::line::{LineError, LineSample, ReferenceLine, sample};
 use super::query::LineQuery;
 use super::smooth::{self, Anchor};
 use crate::geometry::{Vec2, angle};
-use crate::hd_map::LaneSegment;
+use crate::hd_map::{LaneSegment, LaneWaypoint};
 use crate::road::{LaneId, RoadMap};
 use crate::vehicle::VehicleParams;
 use std::sync::Arc;
@@ -39,6 +39,8 @@ pub struct StitchedLine {
     dropped: usize,
     /// How far each anchor was moved to the left, m.
     offsets: Vec<f64>,
+    /// How many of them stay when the line grows.
+    settled: usize,
     line: Arc<ReferenceLine>,
 }
 
@@ -62,6 +64,7 @@ impl StitchedLine {
         Ok(Self {
             chain,
             dropped: 0,
+            settled: offsets.len().saturating_sub(OVERLAP),
             offsets,
             line: Arc::new(ReferenceLine::checked(samples)?),
         })
@@ -139,7 +142,11 @@ impl StitchedLine {
             reason = "a length in metres, not negative"
         )]
         let shared = ((common / STEP) as usize + 1).saturating_sub(self.dropped);
-        let kept = shared.min(self.offsets.len()).saturating_sub(OVERLAP);
+        let kept = if shared + 1 < self.offsets.len() {
+            self.settled.min(shared.saturating_sub(OVERLAP))
+        } else {
+            self.settled
+        };
         let mut anchors: Vec<Anchor> = places.iter().map(|place| anchor(map, *place, vehicle)).collect();
         for (anchor, offset) in anchors.iter_mut().zip(&self.offsets[..kept]) {
             anchor.limits = (*offset, *offset);
@@ -150,9 +157,66 @@ impl StitchedLine {
         Ok(Self {
             chain,
             dropped: self.dropped,
+            settled: offsets.len().saturating_sub(OVERLAP),
             offsets,
             line: Arc::new(ReferenceLine::checked(samples)?),
         })
+    }
+
+    /// Whether from a place on the line follows the lanes that `chain` follows from there, as far as it goes.
+    pub fn agrees(&self, chain: &[LaneSegment], place: &LaneWaypoint) -> bool {
+        let from = |chain: &[LaneSegment]| chain.iter().rposition(|stretch| stretch.lane == place.lane);
+        match (from(&self.chain), from(chain)) {
+            (Some(mine), Some(wanted)) => {
+                let lanes = self.chain[mine..].iter().zip(&chain[wanted..]);
+                lanes.into_iter().all(|(mine, wanted)| mine.lane == wanted.lane)
+            }
+            _ => false,
+        }
+    }
+
+    /// The station at a place of the chain, the last one where the chain passes it twice.
+    pub fn station_of(&self, place: &LaneWaypoint) -> Option<f64> {
+        let holds = |mine: &LaneSegment| {
+            mine.lane == place.lane && mine.start_s - STEP <= place.s && place.s <= mine.end_s + STEP
+        };
+        let last = self.chain.iter().rposition(holds)?;
+        let before = self.chain[..last].iter().map(LaneSegment::length).sum::<f64>();
+        let along = (before + place.s - self.chain[last].start_s) / STEP - self.dropped as f64;
+        let samples = self.line.samples();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "saturates, and is bounded below the number of samples"
+        )]
+        let k = (along as usize).min(samples.len() - 2);
+        Some(samples[k].s + (along - k as f64) * (samples[k + 1].s - samples[k].s))
+    }
+
+    /// This line up to the station `end`.
+    #[must_use]
+    pub fn cut_ahead(&self, end: f64) -> Self {
+        let samples = self.line.samples();
+        let kept = samples.partition_point(|sample| sample.s <= end).max(2);
+        let Ok(line) = ReferenceLine::checked(samples[..kept.min(samples.len())].to_vec()) else {
+            return self.clone();
+        };
+        let mut chain = self.chain.clone();
+        let mut left = (self.dropped + kept - 1) as f64 * STEP;
+        chain.retain_mut(|stretch| {
+            let length = stretch.length().min(left);
+            stretch.end_s = stretch.start_s + length;
+            left -= length;
+            length > 0.0
+        });
+        Self {
+            chain,
+            dropped: self.dropped,
+            // What lay beyond the new end has had its say.
+            settled: self.settled.min(kept),
+            offsets: self.offsets[..kept.min(self.offsets.len())].to_vec(),
+            line: Arc::new(line),
+        }
     }
 
     /// This line without what lies more than `keep` metres before the station `here`.
@@ -167,6 +231,7 @@ impl StitchedLine {
         Self {
             chain: self.chain.clone(),
             dropped: self.dropped + gone,
+            settled: self.settled.saturating_sub(gone),
             offsets: self.offsets[gone..].to_vec(),
             line: Arc::new(line),
         }

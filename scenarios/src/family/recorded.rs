@@ -2,7 +2,7 @@
 //! scenario, and seeds take them by turns, the first one with seed 1.
 
 use super::{Drawn, Family, Origin};
-use crate::error::ScenarioError;
+use crate::error::{NoProblem, ScenarioError};
 use crate::import::{ImportError, commonroad};
 use crate::map_source::LoadedMap;
 use crate::scenario::Scenario;
@@ -21,7 +21,7 @@ pub(super) fn family(text: &str, file: &str, name: &str) -> Result<Family, Scena
     };
     let mut warnings = read.warnings.clone();
     let mut scenarios = Vec::new();
-    for problem in problems {
+    for problem in problems.iter().copied() {
         let (scenario, more) = read.scenario(problem).map_err(in_file)?;
         scenarios.push(Scenario {
             name: name.to_owned(),
@@ -42,10 +42,29 @@ pub(super) fn family(text: &str, file: &str, name: &str) -> Result<Family, Scena
             map: Arc::clone(&read.map),
             text: text.into(),
             warnings: warnings.into(),
+            objects: Arc::new([]),
         },
         fixed: scenarios.len() == 1,
-        origin: Origin::Recorded(scenarios),
+        origin: Origin::Recorded {
+            scenarios,
+            problems: problems.into_iter().flatten().collect(),
+        },
     })
+}
+
+/// The first seed whose turn it is to give the problem `id`.
+pub(super) fn seed_of(problems: &[i64], id: i64) -> Result<u64, NoProblem> {
+    let place = problems.iter().position(|problem| *problem == id);
+    place
+        .map(|place| place as u64 + 1)
+        .ok_or_else(|| NoProblem::Unknown {
+            id,
+            known: problems
+                .iter()
+                .map(|problem| format!("`{problem}`"))
+                .collect::<Vec<_>>()
+                .join(", "),
+        })
 }
 
 /// The scenario of a seed.

@@ -1,5 +1,6 @@
 //! From a file and a seed to one concrete scenario: draws the numbers, puts everything on the road.
 
+mod map_objects;
 mod obstacles;
 pub(crate) mod placement;
 pub(crate) mod sampler;
@@ -38,6 +39,8 @@ pub(crate) struct Draft<'a> {
     pub(crate) obstacles: Vec<Obstacle>,
     /// Where each obstacle starts.
     pub(crate) spots: Vec<Spot>,
+    /// Place in the list of the first obstacle that comes from the map; those are the last ones.
+    pub(crate) first_of_map: usize,
 }
 
 impl<'a> Draft<'a> {
@@ -81,8 +84,11 @@ impl<'a> Draft<'a> {
             destination,
             obstacles: Vec::new(),
             spots: Vec::new(),
+            first_of_map: 0,
         };
         obstacles::place_all(&mut draft, road, file)?;
+        draft.first_of_map = draft.obstacles.len();
+        map_objects::place_all(&mut draft, road);
         Ok(draft)
     }
 }

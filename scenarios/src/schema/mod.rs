@@ -57,6 +57,9 @@ pub struct ScenarioFile {
     /// The ego's body.
     #[serde(default)]
     pub vehicle: Vehicle,
+    /// Whether what the map puts on its lanes is there: barriers, posts, islands.
+    #[serde(default)]
+    pub map_objects: bool,
     /// Standing obstacles.
     #[serde(default)]
     pub parked: Vec<Parked>,

@@ -18,7 +18,8 @@ pub(super) fn check(scene: &Scene<'_>) -> Result<(), Rejection> {
 
 fn on_the_map(scene: &Scene<'_>) -> Result<(), Rejection> {
     let line = &scene.road.line;
-    for (obstacle, spot) in scene.draft.obstacles.iter().zip(&scene.draft.spots) {
+    let own = scene.draft.first_of_map;
+    for (obstacle, spot) in scene.draft.obstacles.iter().zip(&scene.draft.spots).take(own) {
         let beside = line
             .road_width(spot.s)
             .is_some_and(|(left, right)| spot.l < left + BESIDE_ROAD && spot.l > -right - BESIDE_ROAD);
@@ -72,7 +73,7 @@ impl<'a> Body<'a> {
 fn no_overlap(scene: &Scene<'_>) -> Result<(), Rejection> {
     let draft = scene.draft;
     let mut bodies = vec![Body::new("ego", draft.vehicle.footprint(draft.ego.pose))];
-    for (obstacle, spot) in draft.obstacles.iter().zip(&draft.spots) {
+    for (k, (obstacle, spot)) in draft.obstacles.iter().zip(&draft.spots).enumerate() {
         let next = Body::new(&obstacle.name, obstacle.shape.at(spot.pose(scene.road)));
         if let Some(hit) = bodies.iter().find(|body| body.overlaps(&next)) {
             return Err(Rejection::Overlap {
@@ -80,7 +81,10 @@ fn no_overlap(scene: &Scene<'_>) -> Result<(), Rejection> {
                 second: next.name.to_owned(),
             });
         }
-        bodies.push(next);
+        // The parts of a fence may be in each other.
+        if k < draft.first_of_map {
+            bodies.push(next);
+        }
     }
     Ok(())
 }

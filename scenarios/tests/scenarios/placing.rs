@@ -5,6 +5,8 @@ use corridor_decider::frame::{Command, ObstacleKind};
 use corridor_decider::geometry::{ConvexPolygon, Pose, Vec2};
 use corridor_decider::reference_line::LineQuery;
 use corridor_scenarios::scenario::{Behaviour, Expectation, Obstacle, Trigger};
+use corridor_scenarios::{Family, MapCache};
+use std::path::Path;
 
 fn parked(obstacle: &Obstacle) -> Pose {
     match obstacle.behaviour {
@@ -177,4 +179,47 @@ fn the_route_goes_straight_on_to_the_end_of_the_map() {
     let names: Vec<&str> = s.route.iter().map(|id| map.lane(*id).name.as_str()).collect();
     assert_eq!(names, ["left_a", "left_b", "left_c"]);
     close(s.line.length(), 600.0);
+}
+
+/// A barrier across the lane, a post beside the road, paint, and a gantry above.
+#[test]
+fn what_the_map_puts_on_a_lane_is_there_if_it_is_asked_for() {
+    let objects = r#"<objects>
+        <object id="7" type="barrier" s="100" t="-1.5" hdg="0.1" length="1" width="3"/>
+        <object id="8" type="pole" s="100" t="-60" radius="0.1"/>
+        <object id="9" type="crosswalk" s="90" t="0" length="3" width="6"/>
+        <object id="10" type="gantry" s="80" t="0" length="1" width="12"/>
+        <object id="11" type="obstacle" s="120" t="-1.5" length="1" width="1"><repeat s="120" length="4" distance="2"/></object>
+        </objects></road>"#;
+    let map = corridor_scenarios::maps::embedded("urban_parking").unwrap();
+    let maps = MapCache::holding(&map.replacen("</road>", objects, 1)).unwrap();
+    let scenario = |keys: &str| {
+        let text = format!(
+            "description='x'\nmap='urban_parking'\n{keys}\n[ego]\nlane='1_0_-1'\n[expect]\noutcome='progress_by_gap'\n"
+        );
+        let family =
+            Family::parse_with(&text, "x.toml", Path::new(""), &maps).unwrap_or_else(|e| panic!("{e}"));
+        family.draw(1).unwrap_or_else(|e| panic!("{e}")).scenario
+    };
+    assert_eq!(scenario("").obstacles.len(), 0);
+    assert_eq!(scenario("map_objects=false").obstacles.len(), 0);
+    let there = scenario("map_objects=true").obstacles;
+    let names: Vec<&str> = there.iter().map(|obstacle| obstacle.name.as_str()).collect();
+    let expected = [
+        "map object 1_7",
+        "map object 1_11",
+        "map object 1_11 #2",
+        "map object 1_11 #3",
+    ];
+    assert_eq!(names, expected);
+    let ground = ground(&there[0]);
+    close(ground.area(), 3.0);
+    assert!(ground.contains(Vec2::new(100.0, -1.5)), "{ground:?}");
+    close(parked(&there[0]).theta, 0.1);
+    assert!(
+        there
+            .iter()
+            .enumerate()
+            .all(|(k, obstacle)| obstacle.id.0 as usize == k)
+    );
 }

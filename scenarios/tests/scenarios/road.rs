@@ -123,6 +123,7 @@ pub(crate) fn maps() -> MapCache {
             map: Arc::new(map),
             text: "".into(),
             warnings: Arc::new([]),
+            objects: Arc::new([]),
         };
         maps.insert(name, map);
     }

@@ -21,6 +21,9 @@ pub(crate) struct Run {
     /// Which scenario of a family.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Which planning problem of a `CommonRoad` file, by its number there.
+    #[arg(long, value_name = "ID", conflicts_with = "seed")]
+    problem: Option<i64>,
     /// Write a trace to this file.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
@@ -39,6 +42,10 @@ impl Run {
         let settings = Settings::with(&self.settings)?;
         let family = source::family(&self.scenario, &MapCache::new())?;
         self.export.check(&family)?;
+        let seed = match self.problem {
+            Some(id) => family.seed_of_problem(id)?,
+            None => self.seed,
+        };
         if family.is_recorded() {
             // What a scene of other people holds is not always what one expects.
             family
@@ -46,7 +53,7 @@ impl Run {
                 .iter()
                 .for_each(|warning| output::note(&format!("note: {warning}")));
         }
-        let drawn = family.draw(self.seed)?;
+        let drawn = family.draw(seed)?;
         let verdict = self.run(&family, &drawn.scenario, &settings)?;
         output::print(&text(&verdict));
         if let Some(page) = &self.view {

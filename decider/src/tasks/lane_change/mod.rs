@@ -6,11 +6,14 @@ pub mod clear;
 pub mod perception;
 pub mod state;
 
+pub use state::StateConfig as LaneChangeConfig;
+
 use super::scene::Scene;
 use crate::context::Context;
-use crate::frame::{Frame, ObstacleId};
+use crate::frame::{Frame, FrameLine, ObstacleId};
 use crate::planner::{LinePlan, TaskError};
 use crate::reference_line::LineQuery;
+use state::{Line, Phase, Status};
 
 /// How many ticks the target lane must have been clear: a gap that is there for one tick is none.
 const CLEAR_CYCLES: u32 = 4;
@@ -25,6 +28,8 @@ pub struct LaneChangeState {
     pub blocking: Vec<ObstacleId>,
     /// Ticks in a row without one.
     pub clear_cycles: u32,
+    /// How far a change has come; lines have no names that last, so there is none to tell.
+    pub status: Option<Status<()>>,
 }
 
 /// Place of the line to change to, if the frame offers one.
@@ -38,16 +43,41 @@ pub fn target_line(frame: &Frame) -> Option<usize> {
 /// [`TaskError::LaneChangeNotClear`] where it is not.
 pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> {
     let scene = &mut plan.scene;
+    let may_change = advance(scene, &mut context.lane_change);
     if scene.is_change_lane {
         let is_clear = is_clear(scene, &mut context.lane_change);
         context.bounds.change_lane.is_clear = is_clear;
-        return if is_clear { Ok(()) } else { Err(TaskError::LaneChangeNotClear) };
+        // Who is over the line already neither waits nor turns back.
+        return if is_clear && (may_change || is_committed(scene)) { Ok(()) } else { Err(TaskError::LaneChangeNotClear) };
     }
     if target_line(scene.frame).is_some() {
         // Who keeps the speed of the traffic beside him never meets another gap.
         scene.cruise_speed *= scene.config.speed.gap_seeking_share;
     }
     Ok(())
+}
+
+/// Takes the state on by one tick; whether a change is under way. Only the first line of a tick does that.
+fn advance(scene: &Scene, state: &mut LaneChangeState) -> bool {
+    let is_first = scene.is_change_lane || scene.frame.lines.len() == 1;
+    if is_first {
+        let line = |line: &FrameLine| Line {
+            id: (),
+            is_change_lane: line.is_change_lane,
+        };
+        let lines: Vec<Line<()>> = scene.frame.lines.iter().map(line).collect();
+        // Without a line of its own the ego follows the one there is.
+        let _ = state::advance(&scene.config.lane_change, &mut state.status, &lines, scene.frame.time);
+    }
+    state.status.as_ref().is_some_and(|status| status.phase == Phase::Changing)
+}
+
+/// Takes note that a change that was under way could not be planned: the next attempt has to wait.
+pub fn give_up(state: &mut LaneChangeState, now: f64) {
+    if let Some(status) = state.status.as_mut().filter(|status| status.phase == Phase::Changing) {
+        status.phase = Phase::Failed;
+        status.since = now;
+    }
 }
 
 /// Whether the change along this scene's line may be driven now.

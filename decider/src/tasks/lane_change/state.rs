@@ -2,6 +2,8 @@
 //!
 //! `I` names a line from tick to tick; times are those of the frames, s.
 
+use serde::{Deserialize, Serialize};
+
 /// How far a change of lanes has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
@@ -27,7 +29,8 @@ pub struct Status<I> {
 }
 
 /// Settings; names are the original's.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct StateConfig {
     /// Whether the line to plan along first is chosen here.
     pub enable_prioritize_change_lane: bool,

@@ -1,9 +1,8 @@
 //! `PIECEWISE_JERK_PATH_OPTIMIZER`: a path in each bound that may be driven, in the order of preference.
 
-use super::{Goal, LineTable, Path, finish, plan as plan_in, reuse};
+use super::{Goal, LineTable, Method, Path, best, finish, reuse};
 use crate::context::{Context, LastPath};
 use crate::decision::Rejection;
-use crate::piecewise_jerk::Riccati;
 use crate::planner::{LinePlan, TaskError};
 use crate::reference_line::LineQuery;
 use crate::tasks::path_assessment::{in_order, is_borrowed, is_own_lane};
@@ -15,6 +14,24 @@ use crate::tasks::scene::Scene;
 /// # Errors
 /// None: that there is no path at all is for the assessment to say.
 pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> {
+    find_all(plan, context, |context, label| Method::Optimised(context.path_solver(label)));
+    Ok(())
+}
+
+/// The same with sampled paths.
+///
+/// # Errors
+/// None, as above.
+pub fn run_sampled(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> {
+    find_all(plan, context, |_, _| Method::Sampled);
+    Ok(())
+}
+
+fn find_all(
+    plan: &mut LinePlan,
+    context: &mut Context,
+    method: impl for<'a> Fn(&'a mut Context, Label) -> Method<'a>,
+) {
     let scene = &plan.scene;
     let bounds = &plan.bounds.bounds;
     let end_s = bounds.iter().map(PathBound::end_s).fold(scene.ego.s, f64::max);
@@ -28,14 +45,13 @@ pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> 
         }
         let last = plan.last_path.as_ref().filter(|last| last.label == bound.label);
         let goal = goal(scene, context, bound.label);
-        let candidate = find(scene, &table, bound, goal, last, context.path_solver(bound.label));
+        let candidate = find(scene, &table, bound, goal, last, method(context, bound.label));
         let settles = candidate.as_ref().is_ok_and(|path| settles(bound.label, path));
         plan.candidates[place] = Some(candidate);
         if settles {
             break;
         }
     }
-    Ok(())
 }
 
 /// Whether a candidate will be driven before the fallback.
@@ -60,10 +76,10 @@ fn find(
     bound: &PathBound,
     goal: Goal,
     last: Option<&LastPath>,
-    solver: &mut Riccati,
+    method: Method,
 ) -> Result<Path, Rejection> {
     let on = last.filter(|last| super::is_on(scene, &last.points));
-    let new = plan_in(scene, table, bound, goal, on.map(|last| &last.points[..]), solver);
+    let new = best(scene, table, bound, goal, on.map(|last| &last.points[..]), method);
     if new.as_ref().is_ok_and(|path| path.serves(goal)) {
         return new.map(|path| path.leading_to(goal));
     }

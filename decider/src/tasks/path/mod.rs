@@ -1,7 +1,7 @@
-//! A path inside a bound: smoothed along its middle way, or sampled, and checked by the whole footprint.
+//! A path inside a bound: optimised along its middle way, or sampled, and checked by the whole footprint.
 //!
-//! The smoothed path minimises offset and its first three derivatives inside the bound; when it is turned down,
-//! a bundle of quintics (the lateral bundle of the original's lattice planner) offers others. A path ends
+//! The optimised path minimises offset and its first three derivatives inside the bound; the alternative, a task of its
+//! own, is the best of a bundle of quintics (the lateral bundle of the original's lattice planner). A path ends
 //! where the body would touch something: how far it leads is its *reach*. The way of the tick before is kept while
 //! it is clear and nearly as good: a car that changes its mind ten times a second drives badly on any path.
 
@@ -14,7 +14,7 @@ mod profile;
 mod reuse;
 mod table;
 
-pub use candidates::run;
+pub use candidates::{run, run_sampled};
 pub use reuse::{is_on, reuse};
 pub use table::LineTable;
 pub(crate) use assess::{to_points, until_contact};
@@ -128,36 +128,48 @@ pub struct Goal {
     pub stop_s: Option<f64>,
 }
 
+/// How the best profile inside a corridor is found.
+pub(super) enum Method<'a> {
+    /// By the piecewise-jerk optimiser.
+    Optimised(&'a mut Riccati),
+    /// As the best of a bundle of quintics.
+    Sampled,
+}
+
 /// The best path inside `bound`.
 ///
 /// # Errors
 /// [`Rejection`] of the most promising path when none can be driven.
-pub fn plan(
+fn best(
     scene: &Scene,
     table: &LineTable,
     bound: &PathBound,
     goal: Goal,
     last: Option<&[PathPoint]>,
-    solver: &mut Riccati,
+    method: Method,
 ) -> Result<Path, Rejection> {
     let corridor = Corridor::new(scene, table, bound, goal, last).ok_or(Rejection::TooShort)?;
-    let assess_in = |corridor: &Corridor, profile: Profile| {
+    let assess = |corridor: &Corridor, profile: Profile| {
         let cost = profile.cost(corridor);
         assess::assess(scene, table, corridor, &profile).map(|path| (cost, path))
     };
-    let assess = |profile| assess_in(&corridor, profile);
-    let whole = table.rows[corridor.len() - 1].s;
-    let mut smoothed = optimise::solve(scene, table, &corridor, solver).and_then(assess);
-    if is_cut_short(&smoothed, whole) {
-        smoothed = optimise::solve(scene, table, &corridor.rounding(table), solver)
-            .and_then(assess)
-            .or(smoothed);
-    }
-    let new = match smoothed {
-        Ok((_, ref path)) if path.serves(goal) => smoothed,
-        smoothed => best_of_bundle(&corridor, goal, smoothed, assess),
+    let new = match method {
+        Method::Optimised(solver) => {
+            let whole = table.rows[corridor.len() - 1].s;
+            let mut solve = |solved: &Corridor| {
+                let profile = optimise::solve(scene, table, solved, solver)?;
+                assess(&corridor, profile)
+            };
+            let smooth = solve(&corridor);
+            if is_cut_short(&smooth, whole) {
+                solve(&corridor.rounding(table)).or(smooth)
+            } else {
+                smooth
+            }
+        }
+        Method::Sampled => best_of_bundle(&corridor, goal, |profile| assess(&corridor, profile)),
     };
-    let kept = Profile::kept(&corridor).and_then(|old| assess_in(&corridor.widened(), old).ok());
+    let kept = Profile::kept(&corridor).and_then(|old| assess(&corridor.widened(), old).ok());
     let path = match (new, kept) {
         (Ok(new), Some(kept)) if is_better(&new, &kept, goal) => Ok(new.1),
         (_, Some(kept)) => Ok(kept.1),
@@ -184,25 +196,28 @@ fn is_better(new: &(f64, Path), kept: &(f64, Path), goal: Goal) -> bool {
     leads_farther || new.0 < kept.0 * WORTH_A_CHANGE.0 - WORTH_A_CHANGE.1
 }
 
-/// The farthest-leading path of the bundle and the smoothed one; among equals the one of least cost.
+/// The farthest-leading path of the bundle; among equals the one of least cost.
 fn best_of_bundle(
     corridor: &Corridor,
     goal: Goal,
-    smoothed: Result<(f64, Path), Rejection>,
     assess: impl Fn(Profile) -> Result<(f64, Path), Rejection>,
 ) -> Result<(f64, Path), Rejection> {
-    let mut best = smoothed;
     let mut profiles: Vec<(f64, Profile)> = bundle::sample(corridor)
         .into_iter()
         .map(|profile| (profile.cost(corridor), profile))
         .collect();
     profiles.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut best = Err(Rejection::LeavesBound);
     for (_, profile) in profiles {
-        let Ok(path) = assess(profile) else {
-            continue;
+        let path = match assess(profile) {
+            Ok(path) => path,
+            Err(rejection) => {
+                best = best.map_err(|_: Rejection| rejection);
+                continue;
+            }
         };
         let serves = path.1.serves(goal);
-        if best.as_ref().map_or(-1.0, |best| best.1.end_s()) + STEP < path.1.end_s() {
+        if best.as_ref().map_or(-1.0, |best: &(f64, Path)| best.1.end_s()) + STEP < path.1.end_s() {
             best = Ok(path);
         }
         if serves {

@@ -41,6 +41,8 @@ pub struct SpeedConfig {
     pub weights: SpeedWeights,
     /// Fastest change of acceleration that is planned for, m/s³.
     pub planned_jerk: f64,
+    /// Whether an unsafe gap in the sense of RSS makes the tick fall back.
+    pub enable_rss_fallback: bool,
     /// How far before its place a pull-over stops, m: within the tolerance, on its near side.
     pub pull_over_early: f64,
 }
@@ -68,6 +70,7 @@ impl Default for SpeedConfig {
                 ..SpeedWeights::default()
             },
             planned_jerk: 4.0,
+            enable_rss_fallback: false,
             pull_over_early: 0.25,
         }
     }

@@ -6,6 +6,10 @@
 //! Against the original: an obstacle that straddles the line is seen; the lateral range that is restricted is the one
 //! towards the obstacle, not the other one; a negative speed counts as 0 instead of failing.
 
+mod task;
+
+pub use task::run;
+
 /// What is said where nothing is ahead, m.
 const NOTHING_AHEAD: f64 = 3000.0;
 

@@ -27,7 +27,7 @@ pub fn run(plan: &mut LinePlan, _: &mut Context) -> Result<(), TaskError> {
         RssObstacle {
             place,
             speed: obstacle.speed,
-            is_on_lane: is_on_lane(place, left, right),
+            is_on_lane: is_on_lane(place.offset, left, right),
         }
     };
     let obstacles: Vec<RssObstacle> = scene.obstacles.iter().map(obstacle).collect();

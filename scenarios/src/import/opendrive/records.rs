@@ -7,11 +7,19 @@ use crate::import::notes::Notes;
 use crate::import::xml::Element;
 use std::collections::BTreeSet;
 
-/// All roads, in the order of the file.
+/// All roads that have a course and lanes, in the order of the file.
 pub(super) fn roads(root: Element<'_>, notes: &mut Notes<'_>) -> Result<Vec<Road>, ImportError> {
     let mut seen = BTreeSet::new();
     let mut roads = Vec::new();
+    let all_hollow = root.children("road").all(is_hollow);
     for element in root.children("road") {
+        if is_hollow(element) && !all_hollow {
+            let what = "a road without a course or without lanes is left out";
+            notes.add(what, element.place(), || {
+                format!("road `{}`", element.text("id").unwrap_or_default())
+            });
+            continue;
+        }
         let road = road(element, notes)?;
         if !seen.insert(road.id.clone()) {
             return Err(element.error(format!("is the second of id `{}`", road.id), "each id once"));
@@ -22,6 +30,15 @@ pub(super) fn roads(root: Element<'_>, notes: &mut Notes<'_>) -> Result<Vec<Road
         return Err(root.error("has no <road>", "at least one"));
     }
     Ok(roads)
+}
+
+/// Whether there is nothing of a road but its name.
+fn is_hollow(road: Element<'_>) -> bool {
+    let lacks = |list: &'static str, item: &'static str| {
+        road.child(list)
+            .is_none_or(|list| list.children(item).next().is_none())
+    };
+    lacks("planView", "geometry") || lacks("lanes", "laneSection")
 }
 
 fn road(element: Element<'_>, notes: &mut Notes<'_>) -> Result<Road, ImportError> {

@@ -34,6 +34,11 @@ pub(super) fn file(root: Element<'_>, notes: &mut Notes<'_>) -> Result<File, Imp
     let mut problems = Vec::new();
     for element in root.elements() {
         match element.name() {
+            "environmentObstacle" if element.child("shape").is_none() => notes.add(
+                "surroundings without a shape are left out",
+                element.place(),
+                || "<environmentObstacle>".to_owned(),
+            ),
             "obstacle" | "staticObstacle" | "dynamicObstacle" | "environmentObstacle" | "phantomObstacle" => {
                 obstacles.push(obstacle(element)?);
             }
@@ -46,8 +51,8 @@ pub(super) fn file(root: Element<'_>, notes: &mut Notes<'_>) -> Result<File, Imp
         benchmark: root.text("benchmarkID").unwrap_or_default().to_owned(),
         time_step,
         lanelets: road::lanelets(root, notes)?,
-        signs: road::signs(root)?,
-        lights: road::lights(root)?,
+        signs: road::signs(root, notes),
+        lights: road::lights(root, notes),
         intersections: road::intersections(root)?,
         obstacles,
         problems,
@@ -89,9 +94,11 @@ fn role(element: Element<'_>) -> Result<Role, ImportError> {
             match role.content() {
                 Some("static") => Role::Static,
                 Some("dynamic") => Role::Dynamic,
+                Some("environment") => Role::Environment,
+                Some("phantom") => Role::Phantom,
                 other => {
                     let found = format!("is `{}`", other.unwrap_or_default());
-                    return Err(role.error(found, "static or dynamic"));
+                    return Err(role.error(found, "static, dynamic, environment or phantom"));
                 }
             }
         }

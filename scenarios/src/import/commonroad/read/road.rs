@@ -85,7 +85,27 @@ fn adjacent(lanelet: Element<'_>, side: &'static str) -> Result<Option<Adjacent>
     }))
 }
 
-pub(super) fn signs(root: Element<'_>) -> Result<Vec<Sign>, ImportError> {
+/// All of a kind that can be read: a sign or a light is not worth the scene.
+fn readable<T>(
+    root: Element<'_>,
+    name: &'static str,
+    notes: &mut Notes<'_>,
+    read: impl Fn(Element<'_>) -> Result<T, ImportError>,
+) -> Vec<T> {
+    let mut all = Vec::new();
+    for element in root.children(name) {
+        match read(element) {
+            Ok(one) => all.push(one),
+            Err(error) => {
+                let what = "a sign or a light that cannot be read is left out";
+                notes.add(what, element.place(), || error.to_string());
+            }
+        }
+    }
+    all
+}
+
+pub(super) fn signs(root: Element<'_>, notes: &mut Notes<'_>) -> Vec<Sign> {
     let text = |element: Element<'_>| element.content().unwrap_or_default().to_owned();
     let plate = |element: Element<'_>| {
         let number = element.child("trafficSignID").map(text).unwrap_or_default();
@@ -97,10 +117,10 @@ pub(super) fn signs(root: Element<'_>) -> Result<Vec<Sign>, ImportError> {
             plates: element.children("trafficSignElement").map(plate).collect(),
         })
     };
-    root.children("trafficSign").map(sign).collect()
+    readable(root, "trafficSign", notes, sign)
 }
 
-pub(super) fn lights(root: Element<'_>) -> Result<Vec<Light>, ImportError> {
+pub(super) fn lights(root: Element<'_>, notes: &mut Notes<'_>) -> Vec<Light> {
     let phase = |element: Element<'_>| {
         let color = element.required_child("color")?.content().unwrap_or_default();
         let duration = values::number(element.required_child("duration")?)?;
@@ -119,7 +139,7 @@ pub(super) fn lights(root: Element<'_>) -> Result<Vec<Light>, ImportError> {
             active: element.child("active").and_then(Element::content) != Some("false"),
         })
     };
-    root.children("trafficLight").map(light).collect()
+    readable(root, "trafficLight", notes, light)
 }
 
 /// Names of the lists of lanelets that lead through: older files use the singular, newer ones another word.

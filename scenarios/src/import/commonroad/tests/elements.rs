@@ -47,7 +47,7 @@ fn obstacles_of_2018b_name_their_role() {
         .unwrap_err()
         .to_string();
     assert!(
-        message.starts_with("13:20: <role> is `still`; expected static or dynamic"),
+        message.starts_with("13:20: <role> is `still`; expected static, dynamic, environment or phantom"),
         "{message}"
     );
 }

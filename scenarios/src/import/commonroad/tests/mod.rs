@@ -4,6 +4,7 @@ mod elements;
 mod hostile;
 mod roads;
 mod scenes;
+mod variants;
 
 use super::{CommonRoad, read};
 use crate::scenario::Scenario;

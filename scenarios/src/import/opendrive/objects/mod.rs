@@ -16,6 +16,7 @@ use crate::import::ImportError;
 use crate::import::notes::Notes;
 use crate::import::xml::Element;
 use corridor_decider::geometry::{ConvexPolygon, Pose};
+use std::collections::BTreeMap;
 
 /// Something on or beside a road.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,8 +38,12 @@ pub(super) fn objects(
     budget: &mut Budget<'_>,
     notes: &mut Notes<'_>,
 ) -> Result<Vec<MapObject>, ImportError> {
+    let by_id: BTreeMap<&str, &Road> = roads.iter().map(|road| (road.id.as_str(), road)).collect();
     let mut objects = Vec::new();
-    for (element, road) in root.children("road").zip(roads) {
+    for element in root.children("road") {
+        let Some(road) = element.text("id").and_then(|id| by_id.get(id)) else {
+            continue;
+        };
         let elements = element.children("objects").flat_map(Element::elements);
         for child in elements {
             if child.name() != "object" {

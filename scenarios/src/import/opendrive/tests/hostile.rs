@@ -1,6 +1,6 @@
 //! Input that is wrong on purpose: a clear error, never a panic, never a hang.
 
-use super::{file, lane, section, straight};
+use super::{file, lane, road, section, straight};
 use crate::import::{ImportError, opendrive};
 use crate::maps;
 use rand_pcg::Pcg64Mcg;
@@ -26,6 +26,34 @@ fn what_is_not_a_map_says_so() {
         &section(0.0, "", "", &lane(-1, "sidewalk", 3.0, "")),
     ));
     assert!(message(&pavement).contains("no drivable lane"));
+}
+
+/// A road of which only the name is there costs itself and no more, its objects stay beside their own roads.
+#[test]
+fn hollow_roads_are_left_out_and_told() {
+    let driving = lane(-1, "driving", 3.0, "");
+    let whole = straight(
+        r#"id="1""#,
+        r#"<objects><object id="9" type="tree" s="5" t="9"/></objects>"#,
+        &section(0.0, "", "", &driving),
+    );
+    for hollow in [
+        r#"<road id="2" length="0" junction="-1"/>"#.to_owned(),
+        straight(r#"id="2""#, "", ""),
+        road(r#"id="2""#, "", "", &section(0.0, "", "", &driving)),
+    ] {
+        let read =
+            opendrive::read(&file(&format!("{hollow}{whole}"))).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!((read.map.lanes().len(), read.objects.len()), (1, 1), "{hollow}");
+        assert!(
+            read.warnings
+                .iter()
+                .any(|w| w.contains("without a course or without lanes")),
+            "{:?}",
+            read.warnings
+        );
+        assert!(message(&file(&hollow)).contains("expected"), "{hollow}");
+    }
 }
 
 /// What is replaced, by what, and what the message must say.
