@@ -61,7 +61,10 @@ pub fn normal(plan: &LinePlan) -> Result<Vec<TrajectoryPoint>, Unfit> {
     };
     let points = along(&path.points, speed).ok_or(Unfit::PathTooShort)?;
     let vehicle = plan.scene.vehicle;
-    let range = (vehicle.max_deceleration - BRAKING_TOLERANCE, vehicle.max_acceleration + DRIVE_TOLERANCE);
+    let range = (
+        vehicle.max_deceleration - BRAKING_TOLERANCE,
+        vehicle.max_acceleration + DRIVE_TOLERANCE,
+    );
     check(&points, &plan.scene.start, range)?;
     Ok(points)
 }
@@ -91,7 +94,9 @@ pub fn on(speed: &SpeedData, at: impl Fn(f64) -> (Pose, f64)) -> Vec<TrajectoryP
 
 /// Pose and curvature at a distance along a path of two or more points, linear between them; an end goes on straight.
 pub fn at(path: &[PathPoint], distance: f64) -> (Pose, f64) {
-    let above = path.partition_point(|p| p.distance <= distance).clamp(1, path.len() - 1);
+    let above = path
+        .partition_point(|p| p.distance <= distance)
+        .clamp(1, path.len() - 1);
     let (a, b) = (&path[above - 1], &path[above]);
     let share = (distance - a.distance) / (b.distance - a.distance);
     let mix = |x: f64, y: f64| x + (y - x) * share;
@@ -113,13 +118,23 @@ pub fn check(points: &[TrajectoryPoint], start: &StartPoint, range: (f64, f64)) 
         return Err(Unfit::Incomplete);
     };
     let is_finite = |p: &TrajectoryPoint| {
-        let numbers = [p.t, p.distance, p.pose.x, p.pose.y, p.pose.theta, p.kappa, p.v, p.a];
+        let numbers = [
+            p.t,
+            p.distance,
+            p.pose.x,
+            p.pose.y,
+            p.pose.theta,
+            p.kappa,
+            p.v,
+            p.a,
+        ];
         numbers.iter().all(|number| number.is_finite())
     };
     if !points.iter().all(is_finite) {
         return Err(Unfit::NotFinite);
     }
-    let steps_back = |pair: &[TrajectoryPoint]| pair[1].t <= pair[0].t || pair[1].distance < pair[0].distance - BACK;
+    let steps_back =
+        |pair: &[TrajectoryPoint]| pair[1].t <= pair[0].t || pair[1].distance < pair[0].distance - BACK;
     if points.windows(2).any(steps_back) {
         return Err(Unfit::StepsBack);
     }
@@ -129,9 +144,8 @@ pub fn check(points: &[TrajectoryPoint], start: &StartPoint, range: (f64, f64)) 
     if apart {
         return Err(Unfit::Apart);
     }
-    let is_possible = |p: &TrajectoryPoint| {
-        (SPEEDS.0..=SPEEDS.1).contains(&p.v) && (range.0..=range.1).contains(&p.a)
-    };
+    let is_possible =
+        |p: &TrajectoryPoint| (SPEEDS.0..=SPEEDS.1).contains(&p.v) && (range.0..=range.1).contains(&p.a);
     if points.iter().skip(1).all(is_possible) {
         Ok(())
     } else {

@@ -47,9 +47,12 @@ impl Decider {
         if parts.is_empty() {
             return self.planner.decide(frame, &mut self.context);
         }
-        let frame = parts.iter().fold(frame.clone(), |frame, part| faults::without(frame, *part));
+        let frame = parts
+            .iter()
+            .fold(frame.clone(), |frame, part| faults::without(frame, *part));
         let fails = |part| parts.iter().any(|failing| failing.is(part));
-        self.planner.decide_with_failures(&frame, &mut self.context, &fails)
+        self.planner
+            .decide_with_failures(&frame, &mut self.context, &fails)
     }
 }
 
@@ -59,4 +62,3 @@ pub(crate) fn said(panic: &(dyn Any + Send)) -> &str {
     text.or(panic.downcast_ref::<&str>().copied())
         .unwrap_or("no message")
 }
-

@@ -10,5 +10,6 @@ mod failing;
 mod order;
 mod repeat;
 mod routed;
+mod rungs;
 mod smoothness;
 mod support;

@@ -4,7 +4,7 @@
 //! trajectory. Here the car stops along the trajectory of the tick before; where there is none it brakes as hard as
 //! it can with its wheels as they are. Only a car that stands is told to stay where it is.
 
-use super::{held_arc, speed};
+use super::{BrakingLimits, braking_profile, held_arc, speed};
 use crate::context::{Context, LastTrajectory};
 use crate::decision::{ContextFailure, Decision, FallbackCause, Outcome, SpeedRung, TrajectoryPoint};
 use crate::frame::Frame;
@@ -39,7 +39,10 @@ pub fn context_failure(frame: &Frame, start: &StartPoint, vehicle: &VehicleParam
         return None;
     }
     let body = vehicle.footprint(ego.pose);
-    let overlapped = frame.obstacles.iter().find(|obstacle| obstacle.footprint().overlaps(&body));
+    let overlapped = frame
+        .obstacles
+        .iter()
+        .find(|obstacle| obstacle.footprint().overlaps(&body));
     overlapped.map(|obstacle| ContextFailure::Overlap(obstacle.id))
 }
 
@@ -51,9 +54,10 @@ pub fn without_context(
     vehicle: &VehicleParams,
 ) -> Decision {
     let since = *context.blind_since.get_or_insert(frame.time);
-    let last = context.last.as_ref().filter(|last| {
-        frame.time - last.time <= MAX_AGE && frame.time - since <= MAX_BLIND_TIME
-    });
+    let last = context
+        .last
+        .as_ref()
+        .filter(|last| frame.time - last.time <= MAX_AGE && frame.time - since <= MAX_BLIND_TIME);
     let cause = FallbackCause::Context(failure);
     let known = failure != ContextFailure::NoLocalisation;
     if known && frame.ego.v.abs() <= vehicle.max_abs_speed_when_stopped {
@@ -72,8 +76,11 @@ pub fn without_context(
 
 /// The end of the chain: as hard as it can, the wheels as they are.
 pub(super) fn brake_on_arc(start: &StartPoint, vehicle: &VehicleParams) -> Vec<TrajectoryPoint> {
-    let (_, profile) = speed::stopping(start, vehicle, None, &|_| false);
-    trajectory::on(&profile, |distance| (held_arc::pose(start, distance), start.kappa))
+    let limits = BrakingLimits::EMERGENCY.with_max_deceleration(vehicle.max_deceleration);
+    let profile = braking_profile(start.v, start.a, limits);
+    trajectory::on(&profile, |distance| {
+        (held_arc::pose(start, distance), start.kappa)
+    })
 }
 
 /// A car that stands, standing.
@@ -106,7 +113,11 @@ fn stop_along(
         v: now.v,
         a: now.a,
     };
-    let start = if is_localised { StartPoint::measured(frame) } else { planned };
+    let start = if is_localised {
+        StartPoint::measured(frame)
+    } else {
+        planned
+    };
     let (rung, profile) = speed::stopping(&start, vehicle, None, &|_| false);
     let at = |distance| along(&last.points, now.distance + distance);
     Some((rung, trajectory::on(&profile, at)))
@@ -125,5 +136,8 @@ fn along(points: &[TrajectoryPoint], distance: f64) -> (Pose, f64) {
     let at = a.pose.position() + (b.pose.position() - a.pose.position()) * share;
     let turn = angle::difference(b.pose.theta, a.pose.theta);
     let theta = angle::wrap(a.pose.theta + turn * share);
-    (Pose::new(at.x, at.y, theta), a.kappa + (b.kappa - a.kappa) * share)
+    (
+        Pose::new(at.x, at.y, theta),
+        a.kappa + (b.kappa - a.kappa) * share,
+    )
 }

@@ -9,12 +9,13 @@ mod braking;
 mod held_arc;
 mod path;
 mod speed;
-pub mod speed_profile;
+mod speed_profile;
 #[cfg(test)]
 mod tests;
 
 pub use blind::{context_failure, without_context};
 pub use braking::{BrakingLimits, braking_profile};
+pub use speed_profile::{constant_deceleration, extract, standstill};
 
 use crate::context::LastPath;
 use crate::decision::{Fallback, FallbackCause, Outcome, PathPoint, TrajectoryPoint};

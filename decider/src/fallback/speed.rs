@@ -6,9 +6,9 @@
 
 use super::{BrakingLimits, braking_profile, speed_profile};
 use crate::decision::SpeedRung;
-use crate::piecewise_jerk::{FallbackSpeedProblem, Riccati, Solver, State};
+use crate::piecewise_jerk::{FallbackSpeedProblem, Riccati, Solver, State, Term};
 use crate::planner::{LinePlan, Part};
-use crate::st_graph::SpeedData;
+use crate::st_graph::{SpeedData, SpeedPoint};
 use crate::tasks::path::Path;
 use crate::tasks::start_point::StartPoint;
 use crate::vehicle::VehicleParams;
@@ -23,9 +23,18 @@ const MARGIN: f64 = 1.2;
 const JERK: (f64, f64) = (-4.0, 2.0);
 const EMERGENCY_JERK: (f64, f64) = (-30.0, 15.0);
 
+/// Speed and acceleration that count as none at the end of a stop, m/s and m/s².
+const AT_REST: (f64, f64) = (0.02, 0.05);
+
+/// Weight of acceleration and jerk beside that of the way: without it acceleration ripples where the car stands.
+const SMOOTH: f64 = 10.0;
+
 /// Time between two knots, s, and the shortest horizon, s.
 const STEP: f64 = 0.1;
 const LEAST_TIME: f64 = 3.0;
+
+/// Nobody takes longer to stop, s: a start point that asks for that is wrong.
+const MOST_TIME: f64 = 60.0;
 
 /// Time beyond that of constant braking that a stop takes: braking has to rise and to fade, s.
 const RAMPS: f64 = 2.5;
@@ -86,7 +95,14 @@ fn optimised(
 ) -> Option<SpeedData> {
     let braking = braking(start.v, vehicle, target);
     let duration = (start.v / braking + RAMPS).max(LEAST_TIME);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few seconds")]
+    if duration.is_nan() || duration > MOST_TIME {
+        return None;
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a few seconds"
+    )]
     let knots = (duration / STEP).ceil() as usize + 1;
     let problem = FallbackSpeedProblem {
         knots,
@@ -103,12 +119,27 @@ fn optimised(
         jerk,
     };
     let mut problem = problem.to_problem();
+    problem.cost.ddx = vec![Term::new(SMOOTH, 0.0); knots];
+    problem.cost.dddx = SMOOTH;
     problem.admit_initial_state();
     let last = knots - 1;
-    problem.dx[last] = (0.0, 0.0);
-    problem.ddx[last] = (0.0, 0.0);
+    problem.dx[last] = (0.0, AT_REST.0);
+    problem.ddx[last] = (-AT_REST.1, AT_REST.1);
     let solution = Riccati::new().solve(&problem).ok()?;
-    Some(speed_profile::extract(&solution.x, &solution.dx, &solution.ddx, STEP))
+    let profile = speed_profile::extract(&solution.x, &solution.dx, &solution.ddx, STEP);
+    Some(at_rest(profile, solution.x[last]))
+}
+
+/// A profile whose last knot moves no more to speak of stands from then on.
+fn at_rest(mut profile: SpeedData, end: f64) -> SpeedData {
+    if let Some(last) = profile.points.last().copied().filter(|last| last.v > 0.0) {
+        profile.points.push(SpeedPoint {
+            t: last.t + STEP,
+            s: end.max(last.s),
+            ..SpeedPoint::default()
+        });
+    }
+    profile
 }
 
 /// How hard one has to brake, m/s², positive.
@@ -116,4 +147,38 @@ fn braking(v: f64, vehicle: &VehicleParams, target: Option<f64>) -> f64 {
     let hardest = -vehicle.max_deceleration;
     let needed = target.map_or(hardest, |way| MARGIN * v * v / (2.0 * way.max(f64::EPSILON)));
     needed.clamp(COMFORTABLE.min(hardest), hardest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Pose;
+    use proptest::prelude::*;
+
+    fn start(v: f64, a: f64) -> StartPoint {
+        StartPoint {
+            pose: Pose::new(0.0, 0.0, 0.0),
+            kappa: 0.0,
+            v,
+            a,
+        }
+    }
+
+    proptest! {
+        /// With room enough the first rung does, and every profile moves forward to a standstill.
+        #[test]
+        fn every_stop_ends_at_rest(v in 0.0..30.0, a in -3.0..2.0, room in 0.0..2.0) {
+            let vehicle = VehicleParams::default();
+            let start = start(v, a);
+            let way = room * v * v / 2.0 / COMFORTABLE;
+            let (rung, profile) = stopping(&start, &vehicle, Some(way), &|_| false);
+            let last = profile.points[profile.points.len() - 1];
+            prop_assert!(last.v.abs() < 1e-6 && last.a.abs() < 1e-6, "{rung:?} ends with {last:?}");
+            for pair in profile.points.windows(2) {
+                prop_assert!(pair[1].s >= pair[0].s && pair[1].v >= 0.0 && pair[1].t > pair[0].t);
+            }
+            let gentle = a > -1.0 && v > 1.0 && way > v * 3.0 + v * v / 2.0 / COMFORTABLE;
+            prop_assert!(!gentle || rung == SpeedRung::Optimised, "{rung:?} from {v}, {a} within {way} m");
+        }
+    }
 }

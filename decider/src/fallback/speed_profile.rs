@@ -6,10 +6,10 @@
 use crate::st_graph::{SpeedData, SpeedPoint};
 
 /// Profiles are filled with standstill up to this time, s (`fallback_total_time`).
-pub const FALLBACK_TIME: f64 = 3.0;
+pub(super) const FALLBACK_TIME: f64 = 3.0;
 
 /// Time between two points, s (`fallback_time_unit`).
-pub const FALLBACK_STEP: f64 = 0.1;
+pub(super) const FALLBACK_STEP: f64 = 0.1;
 
 /// Nobody brakes for longer than this, s: however weak the brakes, a profile ends.
 const LONGEST: f64 = 120.0;

@@ -106,7 +106,11 @@ fn conclude(
     };
     remember(&plan, context);
     let label = plan.label();
-    let place = context.bounds.pull_over.place.filter(|_| label == Some(Label::PullOver));
+    let place = context
+        .bounds
+        .pull_over
+        .place
+        .filter(|_| label == Some(Label::PullOver));
     let candidates = plan.bounds.bounds.into_iter().zip(plan.assessments);
     Decision {
         line: usize::from(plan.scene.is_change_lane),

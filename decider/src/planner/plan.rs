@@ -1,15 +1,15 @@
 //! The plan along one line while the tasks work on it (the original's `ReferenceLineInfo`).
 
+use crate::context::LastPath;
 use crate::decision::{Assessment, Rejection, Stop, TaskReport};
+use crate::frame::ObstacleId;
+use crate::st_graph::SpeedData;
+use crate::tasks::object_decision::ObjectDecision;
 use crate::tasks::path::Path;
 use crate::tasks::path_bounds::{Borrow, Label, PathBounds};
 use crate::tasks::rss::RssState;
 use crate::tasks::scene::Scene;
-use crate::frame::ObstacleId;
-use crate::st_graph::SpeedData;
 use crate::tasks::speed_bounds::{Envelope, OnPath};
-use crate::tasks::object_decision::ObjectDecision;
-use crate::context::LastPath;
 
 /// What the tasks have found so far. Each field is written by the task named beside it.
 #[derive(Debug)]
@@ -80,7 +80,9 @@ impl<'a> LinePlan<'a> {
 
     /// Label of the bound whose path is driven.
     pub fn label(&self) -> Option<Label> {
-        self.chosen.as_ref().map(|(place, _)| self.bounds.bounds[*place].label)
+        self.chosen
+            .as_ref()
+            .map(|(place, _)| self.bounds.bounds[*place].label)
     }
 
     /// The path that is driven.
@@ -90,7 +92,11 @@ impl<'a> LinePlan<'a> {
 
     /// What is decided about an obstacle of the scene.
     pub fn decision(&self, id: ObstacleId) -> Option<&ObjectDecision> {
-        let place = self.scene.obstacles.iter().position(|obstacle| obstacle.id == id)?;
+        let place = self
+            .scene
+            .obstacles
+            .iter()
+            .position(|obstacle| obstacle.id == id)?;
         self.decisions.get(place)
     }
 }

@@ -23,10 +23,10 @@ impl TaskName {
             Self::SpeedHeuristic | Self::SpeedDecider | Self::SpeedBoundsFinal | Self::PiecewiseJerkSpeed => {
                 format!("{} obstacles on the path", plan.on_path.len())
             }
-            Self::RuleBasedStop | Self::SpeedBoundsPriori => {
-                plan.path()
-                    .map_or_else(|| String::from("no path"), |path| format!("a path of {:.1} m", path.length()))
-            }
+            Self::RuleBasedStop | Self::SpeedBoundsPriori => plan.path().map_or_else(
+                || String::from("no path"),
+                |path| format!("a path of {:.1} m", path.length()),
+            ),
         }
     }
 
@@ -34,7 +34,11 @@ impl TaskName {
     pub(super) fn output(self, plan: &LinePlan) -> String {
         match self {
             Self::LaneChange => format!("cruises at {:.1} m/s", plan.scene.cruise_speed),
-            Self::PathReuse => String::from(if plan.last_path.is_some() { "offered" } else { "none" }),
+            Self::PathReuse => String::from(if plan.last_path.is_some() {
+                "offered"
+            } else {
+                "none"
+            }),
             Self::LaneBorrow => format!("{} sides", plan.borrow.len()),
             Self::PathBounds => list(plan.bounds.bounds.iter().map(|bound: &PathBound| bound.label)),
             Self::PiecewiseJerkPath | Self::SampledPath => {
@@ -42,9 +46,10 @@ impl TaskName {
                 format!("{} paths", found.count())
             }
             Self::PathAssessment => list(plan.label()),
-            Self::PathDecider => plan
-                .stop_before_blocker
-                .map_or_else(|| String::from("nothing blocks"), |distance| format!("a stop at {distance:.1} m")),
+            Self::PathDecider => plan.stop_before_blocker.map_or_else(
+                || String::from("nothing blocks"),
+                |distance| format!("a stop at {distance:.1} m"),
+            ),
             Self::RuleBasedStop => plan
                 .wall
                 .map_or_else(String::new, |wall| format!("a wall at {:.1} m", wall.distance)),

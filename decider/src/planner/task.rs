@@ -8,8 +8,8 @@ use crate::tasks::path_bounds::PathBoundsError;
 use crate::tasks::speed_decider::SpeedDeciderError;
 use crate::tasks::speed_heuristic::SpeedHeuristicError;
 use crate::tasks::{
-    lane_borrow, lane_change, path, path_assessment, path_bounds, path_decider, path_reuse, piecewise_jerk_speed, rss,
-    rule_based_stop, speed_bounds, speed_decider, speed_heuristic,
+    lane_borrow, lane_change, path, path_assessment, path_bounds, path_decider, path_reuse,
+    piecewise_jerk_speed, rss, rule_based_stop, speed_bounds, speed_decider, speed_heuristic,
 };
 use serde::{Deserialize, Serialize};
 use std::fmt;

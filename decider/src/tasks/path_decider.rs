@@ -6,8 +6,8 @@
 use super::object_decision::{Fence, Lateral, Longitudinal};
 use super::path::Path;
 use super::path_bounds::ObstacleSl;
-use super::scene::Scene;
 use super::piecewise_jerk_speed::stop_before;
+use super::scene::Scene;
 use crate::context::Context;
 use crate::frame::ObstacleId;
 use crate::planner::{LinePlan, TaskError};
@@ -58,7 +58,9 @@ fn beside(scene: &Scene, path: &Path, obstacle: &ObstacleSl) -> Lateral {
     let first = path.points.partition_point(|p| p.s < obstacle.start_s);
     let last = path.points.partition_point(|p| p.s <= obstacle.end_s);
     let gap = |l: f64| (obstacle.start_l - l).max(l - obstacle.end_l);
-    let near = path.points[first..last.max(first)].iter().chain(path.points.get(last));
+    let near = path.points[first..last.max(first)]
+        .iter()
+        .chain(path.points.get(last));
     let Some(l) = near.map(|p| p.l).min_by(|a, b| gap(*a).total_cmp(&gap(*b))) else {
         return Lateral::Ignore;
     };
@@ -86,11 +88,15 @@ fn before_blocker(plan: &LinePlan, path: &Path, id: ObstacleId) -> f64 {
         .obstacle(id)
         .map_or(path.length(), |obstacle| contact(scene, path, obstacle));
     let contact = contact.min(path.length() + BEYOND_END);
-    let may_pull_out = plan.borrow_leads_on.unwrap_or_else(|| lane_borrow::is_permitted(scene));
+    let may_pull_out = plan
+        .borrow_leads_on
+        .unwrap_or_else(|| lane_borrow::is_permitted(scene));
     let gap = if may_pull_out {
         config.pull_out_distance
     } else {
         config.stop_distance
     };
-    stop_before(config, scene.start.v, contact, gap).min(path.length()).max(0.0)
+    stop_before(config, scene.start.v, contact, gap)
+        .min(path.length())
+        .max(0.0)
 }

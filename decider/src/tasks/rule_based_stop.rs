@@ -25,7 +25,11 @@ pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> 
 
 /// The place to stand at the road's edge: one chosen to stop at needs no gap beyond what its own search has kept.
 fn pull_over(plan: &LinePlan, context: &Context, path: &Path) -> Option<Stop> {
-    let place = context.bounds.pull_over.place.filter(|_| plan.label() == Some(Label::PullOver))?;
+    let place = context
+        .bounds
+        .pull_over
+        .place
+        .filter(|_| plan.label() == Some(Label::PullOver))?;
     let scene = &plan.scene;
     let s = scene.line.to_frenet(place.position).s - scene.config.speed.pull_over_early;
     Some(Stop {

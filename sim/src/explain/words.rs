@@ -2,7 +2,8 @@
 
 use crate::trace::{EventKind, Trace};
 use corridor_decider::decision::{
-    Assessment, ContextFailure, Fallback, FallbackCause, Outcome, PathRung, Rejection, SpeedRung, Stop, StopCause,
+    Assessment, ContextFailure, Fallback, FallbackCause, Outcome, PathRung, Rejection, SpeedRung, Stop,
+    StopCause,
 };
 use corridor_decider::frame::Command;
 use corridor_decider::road::Side;

@@ -224,7 +224,7 @@ fn other_files_are_refused_with_a_reason() {
     let old = compress("{\"header\":{\"format\":99,\"new\":1}}\n");
     assert_eq!(
         message(&old),
-        "`test.trace` has trace format 99; this program reads format 2"
+        "`test.trace` has trace format 99; this program reads format 3"
     );
     assert!(message(&compress("{\"header\":{\"format\":2}}\n")).contains("line 1: missing field"));
     assert!(message(&compress("")).contains("is empty"));

@@ -48,7 +48,11 @@ pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> 
         let is_clear = is_clear(scene, &mut context.lane_change);
         context.bounds.change_lane.is_clear = is_clear;
         // Who is over the line already neither waits nor turns back.
-        return if is_clear && (may_change || is_committed(scene)) { Ok(()) } else { Err(TaskError::LaneChangeNotClear) };
+        return if is_clear && (may_change || is_committed(scene)) {
+            Ok(())
+        } else {
+            Err(TaskError::LaneChangeNotClear)
+        };
     }
     if target_line(scene.frame).is_some() {
         // Who keeps the speed of the traffic beside him never meets another gap.
@@ -67,14 +71,26 @@ fn advance(scene: &Scene, state: &mut LaneChangeState) -> bool {
         };
         let lines: Vec<Line<()>> = scene.frame.lines.iter().map(line).collect();
         // Without a line of its own the ego follows the one there is.
-        let _ = state::advance(&scene.config.lane_change, &mut state.status, &lines, scene.frame.time);
+        let _ = state::advance(
+            &scene.config.lane_change,
+            &mut state.status,
+            &lines,
+            scene.frame.time,
+        );
     }
-    state.status.as_ref().is_some_and(|status| status.phase == Phase::Changing)
+    state
+        .status
+        .as_ref()
+        .is_some_and(|status| status.phase == Phase::Changing)
 }
 
 /// Takes note that a change that was under way could not be planned: the next attempt has to wait.
 pub fn give_up(state: &mut LaneChangeState, now: f64) {
-    if let Some(status) = state.status.as_mut().filter(|status| status.phase == Phase::Changing) {
+    if let Some(status) = state
+        .status
+        .as_mut()
+        .filter(|status| status.phase == Phase::Changing)
+    {
         status.phase = Phase::Failed;
         status.since = now;
     }

@@ -42,9 +42,7 @@ pub(super) fn assess(
     }
     let mut points = to_points(table, profile);
     let limit = scene.vehicle.max_kappa() * scene.config.path.curvature_share;
-    let bends = |p: &PathPoint| {
-        p.kappa.abs() > limit + start_excess(p.distance) || !p.kappa.is_finite()
-    };
+    let bends = |p: &PathPoint| p.kappa.abs() > limit + start_excess(p.distance) || !p.kappa.is_finite();
     if let Some(k) = (1..points.len()).find(|k| bends(&points[*k])) {
         // A road that cannot be driven on is driven as far as it can.
         let near = &table.rows[k.saturating_sub(1)..(k + 2).min(table.rows.len())];

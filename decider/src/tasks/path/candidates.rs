@@ -14,7 +14,9 @@ use crate::tasks::scene::Scene;
 /// # Errors
 /// None: that there is no path at all is for the assessment to say.
 pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> {
-    find_all(plan, context, |context, label| Method::Optimised(context.path_solver(label)));
+    find_all(plan, context, |context, label| {
+        Method::Optimised(context.path_solver(label))
+    });
     Ok(())
 }
 
@@ -92,7 +94,11 @@ fn find(
 
 /// Along the line, or to the place at the road's edge.
 fn goal(scene: &Scene, context: &Context, label: Label) -> Goal {
-    let place = context.bounds.pull_over.place.filter(|_| label == Label::PullOver);
+    let place = context
+        .bounds
+        .pull_over
+        .place
+        .filter(|_| label == Label::PullOver);
     place.map_or(Goal::default(), |place| {
         let at = scene.line.to_frenet(place.position);
         Goal {

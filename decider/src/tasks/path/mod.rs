@@ -14,11 +14,11 @@ mod profile;
 mod reuse;
 mod table;
 
+pub(crate) use assess::{to_points, until_contact};
 pub use candidates::{run, run_sampled};
+pub(crate) use profile::Profile;
 pub use reuse::{is_on, reuse};
 pub use table::LineTable;
-pub(crate) use assess::{to_points, until_contact};
-pub(crate) use profile::Profile;
 pub(crate) use table::STEP;
 
 use super::path_bounds::PathBound;
@@ -94,7 +94,10 @@ impl Path {
     /// The same path, knowing whether it serves its goal.
     fn leading_to(self, goal: Goal) -> Self {
         let leads_to_goal = self.serves(goal);
-        Self { leads_to_goal, ..self }
+        Self {
+            leads_to_goal,
+            ..self
+        }
     }
 
     /// Arc length at station `s`, going on straight beyond its ends.
@@ -108,7 +111,9 @@ impl Path {
     /// Station at arc length `distance`, going on straight beyond its ends.
     pub fn station_at(&self, distance: f64) -> f64 {
         let points = &self.points;
-        let above = points.partition_point(|p| p.distance <= distance).clamp(1, points.len() - 1);
+        let above = points
+            .partition_point(|p| p.distance <= distance)
+            .clamp(1, points.len() - 1);
         let (a, b) = (&points[above - 1], &points[above]);
         a.s + (distance - a.distance) / (b.distance - a.distance) * (b.s - a.s)
     }

@@ -63,7 +63,11 @@ fn problem(scene: &Scene, table: &LineTable, corridor: &Corridor) -> Problem {
         ddx: (0..n).map(bend).collect(),
         dddx: (0..n - 1).map(|k| twist(scene, k)).collect(),
         cost: Cost {
-            x: corridor.pulls.iter().map(|pull| Term::new(pull.weight, pull.l)).collect(),
+            x: corridor
+                .pulls
+                .iter()
+                .map(|pull| Term::new(pull.weight, pull.l))
+                .collect(),
             dx: vec![Term::new(square, 0.0); n],
             ddx: bending_terms(&corridor.bends, square),
             dddx: square * square * square,
@@ -111,7 +115,11 @@ fn admit_the_only_way(problem: &mut Problem) {
 
 /// Offsets of a car that turns to one side as hard as it may.
 fn hardest_turn(problem: &Problem, side: impl Fn(Limits) -> f64) -> Vec<f64> {
-    let State { mut x, mut dx, mut ddx } = problem.initial;
+    let State {
+        mut x,
+        mut dx,
+        mut ddx,
+    } = problem.initial;
     let mut offsets = vec![x];
     for k in 0..problem.x.len() - 1 {
         let limits = problem.ddx[k + 1];

@@ -56,5 +56,8 @@ pub fn reuse(scene: &Scene, old: &[PathPoint]) -> Option<Path> {
         return None;
     }
     let path = assess::until_contact(scene, points).ok()?;
-    Some(Path { is_reused: true, ..path })
+    Some(Path {
+        is_reused: true,
+        ..path
+    })
 }

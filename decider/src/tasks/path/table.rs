@@ -60,6 +60,10 @@ impl LineTable {
     /// The least of `1 − κ l` along a profile: at 0 it runs through the line's centre of curvature.
     pub(crate) fn least_stretch(&self, profile: &Profile) -> f64 {
         let stretch = |(row, l): (&Row, &[f64; 4])| 1.0 - row.kappa * l[0];
-        self.rows.iter().zip(&profile.l).map(stretch).fold(f64::MAX, f64::min)
+        self.rows
+            .iter()
+            .zip(&profile.l)
+            .map(stretch)
+            .fold(f64::MAX, f64::min)
     }
 }

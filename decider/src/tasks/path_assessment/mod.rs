@@ -79,7 +79,9 @@ fn look_at(plan: &mut LinePlan, context: &Context, place: usize, findings: &mut 
     if bound.label == Label::Fallback && findings.blocked_own.is_some() {
         return;
     }
-    let own = findings.blocked_own.and_then(|own| plan.candidates[own].as_ref()?.as_ref().ok());
+    let own = findings
+        .blocked_own
+        .and_then(|own| plan.candidates[own].as_ref()?.as_ref().ok());
     if is_borrowed(bound.label) {
         let leads_on = leads_on(&plan.scene, path, own);
         plan.borrow_leads_on = Some(leads_on || plan.borrow_leads_on == Some(true));

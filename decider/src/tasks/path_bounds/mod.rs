@@ -28,8 +28,8 @@ pub use config::{PathBoundsConfig, Quirks};
 pub use input::{ChangeLane, EgoFrenet, Input, Memory, ObstacleSl, PullOver, PullOverKind, PullOverPlace};
 pub use pull_over::PullOverRefusal;
 pub use stations::Station;
-pub use task::run;
 pub(crate) use stations::station;
+pub use task::run;
 
 use crate::frame::ObstacleId;
 use crate::reference_line::LineQuery;

@@ -78,15 +78,25 @@ pub(super) fn stations(
     let mut limits = Vec::with_capacity(guide.points.len());
     for (point, least) in guide.points.iter().zip(least) {
         let mut upper = wall.max(point.s).max(least.s + ROOM.0);
-        for there in plan.on_path.iter().filter(|there| stays_behind(there.boundary.kind)) {
-            let Some(edges) = there.boundary.edges_at(point.t).filter(|edges| edges.upper > least.s) else {
+        for there in plan
+            .on_path
+            .iter()
+            .filter(|there| stays_behind(there.boundary.kind))
+        {
+            let Some(edges) = there
+                .boundary
+                .edges_at(point.t)
+                .filter(|edges| edges.upper > least.s)
+            else {
                 continue;
             };
             if least.s > edges.lower {
                 return Err(TaskError::Unavoidable(there.id));
             }
             let wanted = edges.lower - config.least_stop_distance;
-            let kept = wanted.max(least.s + ROOM.0).min((edges.lower - LEAST_GAP).max(least.s + ROOM.0));
+            let kept = wanted
+                .max(least.s + ROOM.0)
+                .min((edges.lower - LEAST_GAP).max(least.s + ROOM.0));
             upper = upper.min(kept.max(point.s.min(edges.lower)));
         }
         limits.push((0.0, upper));
@@ -95,12 +105,19 @@ pub(super) fn stations(
 }
 
 fn stays_behind(kind: BoundaryType) -> bool {
-    matches!(kind, BoundaryType::Follow | BoundaryType::Yield | BoundaryType::Stop)
+    matches!(
+        kind,
+        BoundaryType::Follow | BoundaryType::Yield | BoundaryType::Stop
+    )
 }
 
 /// Lowest and highest speed per knot: what the road allows where the guide is, or what the car cannot help.
 pub(super) fn speeds(plan: &LinePlan, guide: &SpeedData, least: &[SpeedPoint]) -> Vec<Limits> {
-    let limit = |s: f64| plan.envelope.as_ref().map_or(f64::INFINITY, |envelope| envelope.at(s));
+    let limit = |s: f64| {
+        plan.envelope
+            .as_ref()
+            .map_or(f64::INFINITY, |envelope| envelope.at(s))
+    };
     let highest = |(point, least): (&SpeedPoint, &SpeedPoint)| {
         let wanted = limit(point.s).max(point.v) + ABOVE;
         (0.0, wanted.max(least.v + ROOM.1))

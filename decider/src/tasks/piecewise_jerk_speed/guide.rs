@@ -15,8 +15,14 @@ use crate::tasks::speed_bounds::{Envelope, OnPath};
 /// Time between two steps, s.
 pub(super) const STEP: f64 = 0.1;
 
+/// Nothing is planned for longer than this, s.
+const LONGEST: f64 = 30.0;
+
 /// Slower than this the car stands, m/s.
 const STANDSTILL: f64 = 0.02;
+
+/// A leader slower than this is not crept after, m/s: the car stands until there is room to drive.
+const CREEPING: f64 = 0.5;
 
 /// A standing car moves up to its stop again for more than this, m.
 const RESTART: f64 = 0.3;
@@ -25,7 +31,10 @@ const RESTART: f64 = 0.3;
 const RESTART_IN_TRAFFIC: f64 = 1.5;
 
 fn motion(state: &SpeedPoint) -> Motion {
-    Motion { v: state.v, a: state.a }
+    Motion {
+        v: state.v,
+        a: state.a,
+    }
 }
 
 /// A profile to be followed, and what holds the car back most on it.
@@ -69,7 +78,10 @@ pub(super) fn integrate(plan: &mut LinePlan, wall: Stop) -> Result<Guide, TaskEr
 
 /// Whether the car is to stay behind an obstacle rather than pass before it.
 fn is_stayed_behind(kind: BoundaryType) -> bool {
-    matches!(kind, BoundaryType::Follow | BoundaryType::Yield | BoundaryType::Stop)
+    matches!(
+        kind,
+        BoundaryType::Follow | BoundaryType::Yield | BoundaryType::Stop
+    )
 }
 
 /// The first obstacle that a profile meets while the car moves.
@@ -78,7 +90,9 @@ fn first_met(on_path: &[OnPath], states: &[SpeedPoint]) -> Option<usize> {
         let moves = state.v > STANDSTILL;
         moves && boundary.contains(StPoint::new(state.t, state.s))
     };
-    on_path.iter().position(|there| states.iter().any(|state| meets(&there.boundary, state)))
+    on_path
+        .iter()
+        .position(|there| states.iter().any(|state| meets(&there.boundary, state)))
 }
 
 struct Planner<'a> {
@@ -140,15 +154,18 @@ impl Planner<'_> {
     fn give_way(&self, state: &SpeedPoint, there: &OnPath) -> f64 {
         let free = f64::MAX;
         match there.boundary.kind {
-            BoundaryType::Follow => there.boundary.edges_at(state.t).map_or(free, |edges| {
-                let gap = edges.lower - state.s;
-                rules::follow(self.config, state.v, there.s_dot, gap, self.scene.cruise_speed)
-            }),
-            BoundaryType::Yield | BoundaryType::Stop => fence(&there.boundary, state).map_or(free, |fence| {
-                let ahead = fence - state.s;
-                let gap = rules::stop_before(self.config, state.v, ahead, self.config.follow_distance);
-                rules::stop(self.config, motion(state), gap, BRAKE_LATE, RESTART_IN_TRAFFIC)
-            }),
+            BoundaryType::Follow if there.s_dot > CREEPING => {
+                there.boundary.edges_at(state.t).map_or(free, |edges| {
+                    let gap = edges.lower - state.s;
+                    rules::follow(self.config, state.v, there.s_dot, gap, self.scene.cruise_speed)
+                })
+            }
+            BoundaryType::Follow | BoundaryType::Yield | BoundaryType::Stop => fence(&there.boundary, state)
+                .map_or(free, |fence| {
+                    let ahead = fence - state.s;
+                    let gap = rules::stop_before(self.config, state.v, ahead, self.config.follow_distance);
+                    rules::stop(self.config, motion(state), gap, BRAKE_LATE, RESTART_IN_TRAFFIC)
+                }),
             BoundaryType::Overtake | BoundaryType::KeepClear | BoundaryType::Unknown => free,
         }
     }
@@ -200,14 +217,22 @@ impl Planner<'_> {
         }
         let stops = self.brake(start) <= tightest.0;
         let stands = tightest.1.is_none() && end.v <= STANDSTILL;
-        if stops || stands { Some(self.wall) } else { tightest.1 }
+        if stops || stands {
+            Some(self.wall)
+        } else {
+            tightest.1
+        }
     }
 }
 
 /// Number of steps.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few seconds")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a few seconds"
+)]
 pub(super) fn steps(config: &SpeedConfig) -> usize {
-    (config.total_time.max(STEP) / STEP).round() as usize
+    (config.total_time.clamp(STEP, LONGEST) / STEP).round() as usize
 }
 
 /// The nearest place before what an obstacle will yet occupy of the path ahead.

@@ -28,6 +28,9 @@ const LAST_BRAKING: f64 = 0.4;
 /// Who is slowing down and would roll for longer than this to a place within the restart distance stops here, s.
 const CREEP_TIME: f64 = 2.0;
 
+/// Who speeds up by less than this keeps his pace, m/s².
+const AT_PACE: f64 = 0.1;
+
 /// How much harder than needed one brakes behind a leader, so as to ease off at the end.
 const MARGIN: f64 = 1.3;
 
@@ -69,7 +72,7 @@ pub(super) fn stop(config: &SpeedConfig, now: Motion, gap: f64, patience: f64, r
             .max(least);
     }
     let wanted = APPROACH_GAIN * (limit - v) - along;
-    let slows = now.a <= 0.0 && gap - stopping_distance(v, gentle) < restart;
+    let slows = now.a <= AT_PACE && gap - stopping_distance(v, gentle) < restart;
     if slows && gap < restart && gap > v * CREEP_TIME {
         -LAST_BRAKING
     } else if slows {

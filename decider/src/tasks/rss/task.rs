@@ -15,7 +15,10 @@ pub fn run(plan: &mut LinePlan, _: &mut Context) -> Result<(), TaskError> {
     let vehicle = scene.vehicle;
     let ego = RssBox {
         station: (scene.ego.s - vehicle.back_edge_to_center, scene.ego_end_s()),
-        offset: (scene.ego.l - vehicle.half_width(), scene.ego.l + vehicle.half_width()),
+        offset: (
+            scene.ego.l - vehicle.half_width(),
+            scene.ego.l + vehicle.half_width(),
+        ),
     };
     let obstacle = |obstacle: &ObstacleSl| {
         let place = RssBox {
@@ -23,7 +26,10 @@ pub fn run(plan: &mut LinePlan, _: &mut Context) -> Result<(), TaskError> {
             offset: (obstacle.start_l, obstacle.end_l),
         };
         let middle = f64::midpoint(obstacle.start_s, obstacle.end_s);
-        let (left, right) = scene.line.lane_width(middle.clamp(0.0, scene.line.length())).unwrap_or((0.0, 0.0));
+        let (left, right) = scene
+            .line
+            .lane_width(middle.clamp(0.0, scene.line.length()))
+            .unwrap_or((0.0, 0.0));
         RssObstacle {
             place,
             speed: obstacle.speed,

@@ -69,7 +69,8 @@ impl Track {
             let guess = (at + reach.near - self.front).max(floor);
             match self.touch_at(guess, corners) {
                 Some(there) if guess > floor && at - guess > TIGHT => (at, reach) = (guess, there),
-                Some(_) => return guess,
+                // What is left before it is shorter than an end is told apart.
+                Some(_) => return (guess - TIGHT).max(floor),
                 None => return self.tightened(corners, guess, at),
             }
         }
@@ -84,7 +85,7 @@ impl Track {
             let guess = (at + reach.far + self.back).min(end);
             match self.touch_at(guess, corners) {
                 Some(there) if guess < end && guess - at > TIGHT => (at, reach) = (guess, there),
-                Some(_) => return guess,
+                Some(_) => return (guess + TIGHT).min(end),
                 None => return self.tightened(corners, guess, at),
             }
         }

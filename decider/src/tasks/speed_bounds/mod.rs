@@ -52,7 +52,9 @@ pub fn run_priori(plan: &mut LinePlan, context: &mut Context) -> Result<(), Task
 /// None.
 pub fn run_final(plan: &mut LinePlan, _: &mut Context) -> Result<(), TaskError> {
     for k in 0..plan.on_path.len() {
-        let decision = plan.decision(plan.on_path[k].id).and_then(|decision| decision.longitudinal);
+        let decision = plan
+            .decision(plan.on_path[k].id)
+            .and_then(|decision| decision.longitudinal);
         let there = &mut plan.on_path[k];
         there.boundary.kind = kind(decision, &there.boundary);
     }

@@ -27,7 +27,12 @@ pub struct OnPath {
 /// after.
 pub(super) fn on_path(scene: &Scene, path: &Path, margin: impl Fn(ObstacleId) -> f64) -> Vec<OnPath> {
     let config = &scene.config.speed;
-    let track = Track::new(scene.vehicle, &path.points, config.lateral_margin, config.total_time);
+    let track = Track::new(
+        scene.vehicle,
+        &path.points,
+        config.lateral_margin,
+        config.total_time,
+    );
     let Some(track) = track else { return Vec::new() };
     let there = |moving: &Moving| {
         let seen = |obstacle: &&Obstacle| obstacle.id == moving.id;

@@ -1,8 +1,8 @@
 //! Contacts against a search of every step of the path, and the worked numbers of the specification.
 
 use super::*;
-use crate::frame::{Obstacle, ObstacleId, ObstacleKind, PredictedPose};
 use crate::decision::PathPoint;
+use crate::frame::{Obstacle, ObstacleId, ObstacleKind, PredictedPose};
 use crate::geometry::{ConvexPolygon, Pose, Vec2, angle};
 use crate::vehicle::VehicleParams;
 use proptest::prelude::*;

@@ -25,7 +25,9 @@ pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> 
         now: scene.frame.time,
         front_station: &front,
     };
-    let moving: Vec<usize> = (0..scene.obstacles.len()).filter(|k| !scene.obstacles[*k].is_static).collect();
+    let moving: Vec<usize> = (0..scene.obstacles.len())
+        .filter(|k| !scene.obstacles[*k].is_static)
+        .collect();
     let mut objects: Vec<Object> = moving.iter().map(|k| object(plan, *k)).collect();
     let result = decide(&question, &mut objects, &mut context.pedestrians);
     let decisions: Vec<_> = objects.iter().map(|object| object.decision).collect();

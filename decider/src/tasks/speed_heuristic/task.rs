@@ -31,7 +31,11 @@ pub fn run(plan: &mut LinePlan, _: &mut Context) -> Result<(), TaskError> {
         repels: true,
     };
     let graph = StGraphData {
-        obstacles: plan.on_path.iter().map(|there| obstacle(there.boundary.clone())).collect(),
+        obstacles: plan
+            .on_path
+            .iter()
+            .map(|there| obstacle(there.boundary.clone()))
+            .collect(),
         init_v: scene.start.v,
         init_a: scene.start.a,
         speed_limit: limit(envelope, wall.distance),
@@ -47,7 +51,11 @@ pub fn run(plan: &mut LinePlan, _: &mut Context) -> Result<(), TaskError> {
 
 /// The speed limit along the path.
 fn limit(envelope: &Envelope, length: f64) -> SpeedLimit {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a path's length")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a path's length"
+    )]
     let count = (length / LIMIT_STEP).ceil() as usize + 1;
     let entry = |k: usize| {
         let s = k as f64 * LIMIT_STEP;
