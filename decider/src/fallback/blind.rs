@@ -19,6 +19,9 @@ const MAX_BLIND_TIME: f64 = 1.5;
 /// An older trajectory is not followed, s.
 const MAX_AGE: f64 = 0.5;
 
+/// No car is faster than this, brakes, or turns faster, m/s, m/s² and rad/s: who says so does not know.
+const PLAUSIBLE: f64 = 100.0;
+
 /// How far ahead a car that stands is told to stay, s.
 const HOLD_TIME: f64 = 3.0;
 
@@ -28,8 +31,11 @@ const STANDS: f64 = 1e-3;
 /// What keeps a frame from being planned, if anything does.
 pub fn context_failure(frame: &Frame, start: &StartPoint, vehicle: &VehicleParams) -> Option<ContextFailure> {
     let ego = &frame.ego;
-    let numbers = [ego.pose.x, ego.pose.y, ego.pose.theta, ego.v, ego.a, ego.yaw_rate];
-    if !numbers.iter().all(|number| number.is_finite()) {
+    let place = [ego.pose.x, ego.pose.y, ego.pose.theta];
+    let motion = [ego.v, ego.a, ego.yaw_rate];
+    let is_known = place.iter().all(|number| number.is_finite())
+        && motion.iter().all(|number| number.abs() <= PLAUSIBLE);
+    if !is_known {
         return Some(ContextFailure::NoLocalisation);
     }
     if frame.lines.is_empty() {

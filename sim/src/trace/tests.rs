@@ -226,7 +226,7 @@ fn other_files_are_refused_with_a_reason() {
         message(&old),
         "`test.trace` has trace format 99; this program reads format 3"
     );
-    assert!(message(&compress("{\"header\":{\"format\":2}}\n")).contains("line 1: missing field"));
+    assert!(message(&compress("{\"header\":{\"format\":3}}\n")).contains("line 1: missing field"));
     assert!(message(&compress("")).contains("is empty"));
     let missing = Trace::open(Path::new("no/such.trace")).unwrap_err();
     assert!(matches!(missing, TraceError::Io { .. }));

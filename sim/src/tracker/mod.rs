@@ -63,14 +63,14 @@ impl Tracker {
     ///
     /// Without a trajectory: full braking, the wheels as they are.
     pub fn track(&self, ego: &EgoState, trajectory: &[TrajectoryPoint], time_since_frame: f64) -> Controls {
-        let Some(last) = trajectory.last() else {
+        if trajectory.is_empty() {
             return Controls {
                 steer: ego.steer,
                 acceleration: self.vehicle.max_deceleration,
             };
-        };
+        }
         let now = Moment::at(trajectory, time_since_frame);
-        if stands(trajectory, last, now, time_since_frame) && ego.v.abs() <= STANDING {
+        if stands(trajectory, now, time_since_frame) && ego.v.abs() <= STANDING {
             return Controls {
                 steer: ego.steer,
                 acceleration: if ego.v.abs() <= AT_REST {
@@ -124,10 +124,10 @@ impl Tracker {
     }
 }
 
-/// Whether the trajectory wants the car to stand from now on.
-fn stands(trajectory: &[TrajectoryPoint], last: &TrajectoryPoint, now: Moment, time: f64) -> bool {
+/// Whether the trajectory wants the car to stand now and for a while.
+fn stands(trajectory: &[TrajectoryPoint], now: Moment, time: f64) -> bool {
     let soon = Moment::at(trajectory, time + HOLD_PREVIEW);
-    now.v <= STANDING && soon.v <= STANDING && last.v <= STANDING
+    now.v <= STANDING && soon.v <= STANDING
 }
 
 /// Where the trajectory ends at rest and near: the braking that stops the car there, m/s², in the shape that the

@@ -8,6 +8,12 @@ use crate::st_graph::{BoundaryType, SpeedData, SpeedPoint};
 /// Room between what the car can just do and what it has to do, m and m/s: limits that touch leave no inside.
 const ROOM: (f64, f64) = (0.02, 0.02);
 
+/// What a car that stands may move, m/s: limits that coincide leave no inside.
+pub(super) const STANDING: f64 = 1e-3;
+
+/// For how many knots the guide has to have stood until the car must.
+const SETTLING: usize = 2;
+
 /// Margin kept to a moving obstacle where the car can no more keep the wanted one, m.
 const LEAST_GAP: f64 = 0.5;
 
@@ -111,16 +117,24 @@ fn stays_behind(kind: BoundaryType) -> bool {
     )
 }
 
-/// Lowest and highest speed per knot: what the road allows where the guide is, or what the car cannot help.
+/// Lowest and highest speed per knot: what the road allows where the guide is, or what the car cannot help. Where the
+/// guide has come to stand the car stands too: a small speed costs little, and it would never quite stop rolling.
 pub(super) fn speeds(plan: &LinePlan, guide: &SpeedData, least: &[SpeedPoint]) -> Vec<Limits> {
     let limit = |s: f64| {
         plan.envelope
             .as_ref()
             .map_or(f64::INFINITY, |envelope| envelope.at(s))
     };
+    let mut stands_for = 0;
     let highest = |(point, least): (&SpeedPoint, &SpeedPoint)| {
-        let wanted = limit(point.s).max(point.v) + ABOVE;
-        (0.0, wanted.max(least.v + ROOM.1))
+        stands_for = if point.v <= 0.0 { stands_for + 1 } else { 0 };
+        let wanted = if stands_for > SETTLING {
+            STANDING
+        } else {
+            limit(point.s).max(point.v) + ABOVE
+        };
+        let forced = if least.v > 0.0 { least.v + ROOM.1 } else { 0.0 };
+        (0.0, wanted.max(forced))
     };
     guide.points.iter().zip(least).map(highest).collect()
 }

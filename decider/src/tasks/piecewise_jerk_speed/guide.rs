@@ -28,7 +28,7 @@ const CREEPING: f64 = 0.5;
 const RESTART: f64 = 0.3;
 
 /// A standing car follows traffic again for more than this, m.
-const RESTART_IN_TRAFFIC: f64 = 1.5;
+const RESTART_IN_TRAFFIC: f64 = 2.0;
 
 fn motion(state: &SpeedPoint) -> Motion {
     Motion {

@@ -19,8 +19,8 @@ use crate::planner::{LinePlan, TaskError};
 use crate::st_graph::{SpeedData, SpeedPoint};
 use guide::STEP;
 
-/// Slower than this at a knot the car stands, m/s: what a solver leaves of nothing.
-const NOTHING: f64 = 1e-6;
+/// Slower than this at a knot the car stands, m/s.
+const NOTHING: f64 = 2.0 * bounds::STANDING;
 
 /// Finds the speed along the chosen path.
 ///

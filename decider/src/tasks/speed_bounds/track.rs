@@ -13,6 +13,9 @@ const OLDEST: f64 = -1.0;
 /// Share of the body's length between two anchors: less than 1, so that no contact slips through between two.
 const ANCHOR_STEP: f64 = 0.75;
 
+/// No path worth driving has more anchors: 3.7 km of them.
+const MOST_ANCHORS: f64 = 1000.0;
+
 /// A path with the body that is to move along it.
 #[derive(Clone, Debug)]
 pub struct Track {
@@ -64,7 +67,7 @@ impl Track {
             front_edge: front,
             total_time,
         };
-        let step = (front + back) * ANCHOR_STEP;
+        let step = ((front + back) * ANCHOR_STEP).max(last.distance / MOST_ANCHORS);
         let mut distance = 0.0;
         while step > 0.0 && distance < last.distance {
             track.add_anchor(distance);

@@ -3,7 +3,7 @@
 use super::search;
 use crate::context::Context;
 use crate::planner::{LinePlan, TaskError};
-use crate::st_graph::{SpeedData, SpeedLimit, SpeedPoint, StGraphData, StObstacle};
+use crate::st_graph::{S_HORIZON, SpeedData, SpeedLimit, SpeedPoint, StGraphData, StObstacle};
 use crate::tasks::speed_bounds::Envelope;
 
 /// With less than this to the wall there is nothing to search, m.
@@ -26,6 +26,7 @@ pub fn run(plan: &mut LinePlan, _: &mut Context) -> Result<(), TaskError> {
         plan.heuristic = Some(standing(total_time));
         return Ok(());
     }
+    let way = wall.distance.min(S_HORIZON);
     let obstacle = |boundary| StObstacle {
         boundary,
         repels: true,
@@ -38,9 +39,9 @@ pub fn run(plan: &mut LinePlan, _: &mut Context) -> Result<(), TaskError> {
             .collect(),
         init_v: scene.start.v,
         init_a: scene.start.a,
-        speed_limit: limit(envelope, wall.distance),
+        speed_limit: limit(envelope, way),
         cruise_speed: scene.cruise_speed,
-        path_length: wall.distance,
+        path_length: way,
         total_time,
     };
     let config = scene.config.speed_heuristic(scene.is_change_lane);
