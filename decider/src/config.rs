@@ -2,6 +2,7 @@
 
 use crate::lane_follow_map::{LaneFollowConfig, LaneFollowQuirks};
 use crate::planner::{LANE_FOLLOW, TaskName};
+use crate::quirks::Quirks;
 use crate::tasks::lane_borrow::LaneBorrowConfig;
 use crate::tasks::lane_change::LaneChangeConfig;
 use crate::tasks::path::PathConfig;
@@ -26,6 +27,8 @@ pub struct Config {
     pub path: PathConfig,
     /// Speed along a path.
     pub speed: SpeedConfig,
+    /// Defects of the original in the pipeline and its fallbacks.
+    pub quirks: Quirks,
     /// How far the lines along a route reach.
     pub lane_follow: LaneFollowConfig,
     /// The search over the ST graph along the own lane.
@@ -45,6 +48,7 @@ impl Default for Config {
             speed: SpeedConfig::default(),
             speed_heuristic: SpeedHeuristicConfig::default(),
             speed_heuristic_lane_change: SpeedHeuristicConfig::lane_change(),
+            quirks: Quirks::default(),
             lane_follow: LaneFollowConfig::default(),
         }
     }
@@ -69,6 +73,7 @@ impl Config {
                 corner_collision_check: true,
                 ..PathConfig::default()
             },
+            quirks: Quirks::apollo(),
             lane_follow: LaneFollowConfig {
                 quirks: LaneFollowQuirks::apollo(),
                 ..LaneFollowConfig::default()

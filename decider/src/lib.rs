@@ -18,6 +18,7 @@ pub mod hd_map;
 pub mod lane_follow_map;
 pub mod piecewise_jerk;
 pub mod planner;
+pub mod quirks;
 pub mod reference_line;
 pub mod road;
 pub mod routing;

@@ -12,4 +12,5 @@ mod repeat;
 mod routed;
 mod rungs;
 mod smoothness;
+mod stages;
 mod support;

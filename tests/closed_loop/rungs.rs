@@ -3,6 +3,7 @@
 use crate::support::scenario;
 use corridor_decider::decision::{ContextFailure, FallbackCause, Outcome, PathRung, SpeedRung};
 use corridor_decider::planner::TaskName;
+use corridor_decider::quirks::Quirks;
 use corridor_sim::faults::{Failure, Part};
 use corridor_sim::run::run;
 use corridor_sim::settings::Settings;
@@ -10,15 +11,21 @@ use corridor_sim::verdict::{FallbackCount, Verdict};
 
 /// A drive past a parked car with parts that fail for a while.
 fn drive(failures: &[(Part, f64, f64)]) -> Verdict {
+    drive_with(Quirks::default(), failures)
+}
+
+/// The same with defects of the original.
+fn drive_with(quirks: Quirks, failures: &[(Part, f64, f64)]) -> Verdict {
     let failures = failures.iter().map(|(of, from, until)| Failure {
         of: *of,
         from: *from,
         until: *until,
     });
-    let settings = Settings {
+    let mut settings = Settings {
         failures: failures.collect(),
         ..Settings::default()
     };
+    settings.decider.quirks = quirks;
     run(&scenario("nudge_parked_car"), &settings)
 }
 
@@ -180,4 +187,50 @@ fn a_failure_of_the_last_tick_is_no_source_of_paths() {
     assert!(verdict.pass, "{}", verdict.summary);
     let ticks: u32 = verdict.fallbacks.iter().map(|count| count.ticks).sum();
     assert_eq!(ticks, 3, "{:?}", verdict.fallbacks);
+}
+
+#[test]
+fn the_original_throws_a_fresh_path_away() {
+    let quirks = Quirks {
+        fallback_discards_fresh_path: true,
+        ..Quirks::default()
+    };
+    let verdict = drive_with(quirks, &[(SPEED, 3.0, 3.5)]);
+    assert_eq!(verdict.fallbacks[0].outcome, Outcome::PathFallback);
+    assert_eq!(verdict.fallbacks[0].fallback.path, Some(PathRung::LastPath));
+}
+
+#[test]
+fn the_original_forgets_the_last_path_when_it_is_needed() {
+    let quirks = Quirks {
+        fallback_forgets_last_path: true,
+        ..Quirks::default()
+    };
+    let verdict = drive_with(quirks, &[(BOUNDS, 3.0, 3.4)]);
+    assert_eq!(verdict.fallbacks[0].fallback.path, Some(PathRung::OffsetLine));
+}
+
+#[test]
+fn a_frozen_pose_makes_a_blind_car_brake_as_hard_as_it_can() {
+    let quirks = Quirks {
+        frozen_pose: true,
+        ..Quirks::default()
+    };
+    let blind = [(Part::ReferenceLine, 3.0, 3.3)];
+    let braking = |verdict: &Verdict| {
+        let metric = verdict
+            .metrics
+            .iter()
+            .find(|metric| metric.name == "lon_jerk")
+            .unwrap();
+        metric.value.unwrap()
+    };
+    let (right, wrong) = (drive(&blind), drive_with(quirks, &blind));
+    assert_eq!(wrong.fallbacks[0].outcome, Outcome::Hold);
+    assert!(
+        braking(&wrong) > braking(&right) + 2.0,
+        "{} {}",
+        braking(&wrong),
+        braking(&right)
+    );
 }

@@ -9,6 +9,7 @@ use crate::context::{Context, LastTrajectory};
 use crate::decision::{ContextFailure, Decision, FallbackCause, Outcome, SpeedRung, TrajectoryPoint};
 use crate::frame::Frame;
 use crate::geometry::{Pose, angle};
+use crate::quirks::Quirks;
 use crate::tasks::start_point::{StartPoint, at_time, is_near};
 use crate::trajectory;
 use crate::vehicle::VehicleParams;
@@ -58,6 +59,7 @@ pub fn without_context(
     failure: ContextFailure,
     context: &mut Context,
     vehicle: &VehicleParams,
+    quirks: &Quirks,
 ) -> Decision {
     let since = *context.blind_since.get_or_insert(frame.time);
     let last = context
@@ -66,7 +68,8 @@ pub fn without_context(
         .filter(|last| frame.time - last.time <= MAX_AGE && frame.time - since <= MAX_BLIND_TIME);
     let cause = FallbackCause::Context(failure);
     let known = failure != ContextFailure::NoLocalisation;
-    if known && frame.ego.v.abs() <= vehicle.max_abs_speed_when_stopped {
+    let stands = frame.ego.v.abs() <= vehicle.max_abs_speed_when_stopped;
+    if known && (stands || quirks.frozen_pose) {
         return Decision::without_path(Outcome::Hold, cause, None, hold(frame.ego.pose));
     }
     if let Some((rung, trajectory)) = last.and_then(|last| stop_along(last, frame, known, vehicle)) {

@@ -20,6 +20,7 @@ pub use speed_profile::{constant_deceleration, extract, standstill};
 use crate::context::LastPath;
 use crate::decision::{Fallback, FallbackCause, Outcome, PathPoint, TrajectoryPoint};
 use crate::planner::{LinePlan, Part};
+use crate::tasks::path::Path;
 use crate::trajectory;
 
 /// What is driven in the end.
@@ -61,7 +62,9 @@ pub fn along_line(
     fails: &dyn Fn(Part) -> bool,
 ) -> Driven {
     let scene = &plan.scene;
-    let fresh = plan.path().filter(|path| path.points.len() >= 2);
+    let quirks = &scene.config.quirks;
+    let is_kept = |path: &&Path| path.points.len() >= 2 && !quirks.fallback_discards_fresh_path;
+    let fresh = plan.path().filter(is_kept);
     let (rung, path) = match fresh {
         Some(path) => (None, Some(path.clone())),
         None => match path::find(plan, last, fails) {
@@ -77,8 +80,8 @@ pub fn along_line(
     } else {
         Outcome::PathFallback
     };
-    let target = speed::target(plan, &path);
-    let (speed_rung, profile) = speed::stopping(&scene.start, scene.vehicle, Some(target), fails);
+    let target = Some(speed::target(plan, &path));
+    let (speed_rung, profile) = speed::stopping(&scene.start, scene.vehicle, target, fails);
     let mut points = path.points;
     // The gate of a fresh path did not ask whether the car can stop on it; the brakes say where that is.
     let needed = profile.points.last().map_or(0.0, |last| last.s);

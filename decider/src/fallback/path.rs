@@ -52,9 +52,11 @@ pub(super) fn find(
         (PathRung::OffsetLine, &|| offset_line(scene)),
         (PathRung::HeldArc, &|| arc(scene)),
     ];
+    let forgets = scene.config.quirks.fallback_forgets_last_path && plan.path().is_none();
+    let is_forgotten = |rung| forgets && matches!(rung, PathRung::LastPath | PathRung::SelfLane);
     sources
         .into_iter()
-        .filter(|(rung, _)| !fails(Part::Path(*rung)))
+        .filter(|(rung, _)| !fails(Part::Path(*rung)) && !is_forgotten(*rung))
         .find_map(|(rung, source)| Some((rung, source().filter(passes)?)))
 }
 

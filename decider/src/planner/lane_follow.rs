@@ -42,7 +42,9 @@ impl Planner {
     ) -> Decision {
         let start = start_point(frame, context.last.as_ref());
         let decision = match fallback::context_failure(frame, &start, &self.vehicle) {
-            Some(failure) => fallback::without_context(frame, failure, context, &self.vehicle),
+            Some(failure) => {
+                fallback::without_context(frame, failure, context, &self.vehicle, &self.config.quirks)
+            }
             None => self.plan(frame, start, context, fails),
         };
         context.last = (!decision.trajectory.is_empty()).then(|| LastTrajectory {

@@ -20,7 +20,11 @@ impl TaskName {
             Self::PathAssessment => format!("{} paths", plan.candidates.iter().flatten().count()),
             Self::Rss => format!("{} obstacles", scene.obstacles.len()),
             Self::PathDecider => format!("{} standing obstacles", scene.bodies.len()),
-            Self::SpeedHeuristic | Self::SpeedDecider | Self::SpeedBoundsFinal | Self::PiecewiseJerkSpeed => {
+            Self::SpeedHeuristic
+            | Self::SpeedDecider
+            | Self::SpeedBoundsFinal
+            | Self::PiecewiseJerkSpeed
+            | Self::PiecewiseJerkNonlinearSpeed => {
                 format!("{} obstacles on the path", plan.on_path.len())
             }
             Self::RuleBasedStop | Self::SpeedBoundsPriori => plan.path().map_or_else(
@@ -56,7 +60,7 @@ impl TaskName {
             Self::SpeedBoundsPriori => format!("{} obstacles on the path", plan.on_path.len()),
             Self::SpeedHeuristic => way(plan.heuristic.as_ref()),
             Self::SpeedDecider | Self::SpeedBoundsFinal => decided(plan),
-            Self::PiecewiseJerkSpeed => way(plan.speed.as_ref()),
+            Self::PiecewiseJerkSpeed | Self::PiecewiseJerkNonlinearSpeed => way(plan.speed.as_ref()),
             Self::Rss => plan.rss.map_or_else(String::new, |rss| {
                 let verdict = if rss.is_safe { "safe" } else { "unsafe" };
                 format!("{verdict}: {:.1} m, {:.1} m wanted", rss.gap, rss.safe_distance)

@@ -46,6 +46,8 @@ pub enum TaskName {
     SpeedBoundsFinal,
     /// The smoothest speed profile that keeps them.
     PiecewiseJerkSpeed,
+    /// The same with the bends where the car will be.
+    PiecewiseJerkNonlinearSpeed,
     /// Whether the gap ahead is safe in the sense of RSS.
     Rss,
 }
@@ -117,6 +119,7 @@ impl TaskName {
             Self::SpeedDecider => speed_decider::run,
             Self::SpeedBoundsFinal => speed_bounds::run_final,
             Self::PiecewiseJerkSpeed => piecewise_jerk_speed::run,
+            Self::PiecewiseJerkNonlinearSpeed => piecewise_jerk_speed::run_nonlinear,
             Self::Rss => rss::run,
         }
     }

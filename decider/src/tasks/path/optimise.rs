@@ -9,7 +9,7 @@ use super::corridor::Corridor;
 use super::profile::Profile;
 use super::table::{LineTable, STEP};
 use crate::decision::Rejection;
-use crate::piecewise_jerk::{Cost, JerkCoupling, Limits, Problem, SolveError, Solver, State, Term};
+use crate::piecewise_jerk::{Cost, Limits, Problem, SolveError, Solver, State, Term};
 use crate::tasks::scene::Scene;
 
 /// Largest `l'` (the original's `lateral_derivative_bound_default`).
@@ -71,7 +71,7 @@ fn problem(scene: &Scene, table: &LineTable, corridor: &Corridor) -> Problem {
             dx: vec![Term::new(square, 0.0); n],
             ddx: bending_terms(&corridor.bends, square),
             dddx: square * square * square,
-            coupling: JerkCoupling::Symmetric,
+            coupling: scene.config.quirks.jerk_coupling(),
             end: [Term::default(); 3],
             constant: 0.0,
         },

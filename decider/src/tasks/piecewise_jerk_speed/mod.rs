@@ -8,13 +8,14 @@
 mod bounds;
 mod config;
 mod guide;
+mod nonlinear;
 mod rules;
 
 pub use config::SpeedConfig;
 pub(crate) use rules::stop_before;
 
 use crate::context::Context;
-use crate::piecewise_jerk::{JerkCoupling, Solution, SolveError, Solver, SpeedProblem, State, Term};
+use crate::piecewise_jerk::{Problem, Riccati, Solution, SolveError, Solver, SpeedProblem, State, Term};
 use crate::planner::{LinePlan, TaskError};
 use crate::st_graph::{SpeedData, SpeedPoint};
 use guide::STEP;
@@ -28,22 +29,42 @@ const NOTHING: f64 = 2.0 * bounds::STANDING;
 /// [`TaskError::Unavoidable`] where even the guide meets an obstacle, [`TaskError::Infeasible`] or
 /// [`TaskError::NotSolved`] where no profile is found.
 pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> {
+    find(plan, context, |_, problem, solver| solve(problem, solver))
+}
+
+/// Finds it with the bends where the car will be and not where its guide is (the original's nonlinear optimiser).
+///
+/// # Errors
+/// As [`run`].
+pub fn run_nonlinear(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> {
+    find(plan, context, nonlinear::solve)
+}
+
+fn find(
+    plan: &mut LinePlan,
+    context: &mut Context,
+    solve: impl Fn(&LinePlan, &Problem, &mut Riccati) -> Result<Solution, TaskError>,
+) -> Result<(), TaskError> {
     let wall = plan.wall.ok_or(TaskError::NoPath)?;
     let guide = guide::integrate(plan, wall)?;
-    let problem = problem(plan, &guide.profile, wall.distance)?;
-    let mut qp = problem.to_problem();
+    let speed = problem(plan, &guide.profile, wall.distance)?;
+    let mut problem = speed.to_problem();
     for (k, point) in guide.profile.points.iter().enumerate() {
-        qp.cost.dx[k].reference = point.v;
-        qp.cost.ddx[k] = Term::new(problem.weights.acc, point.a);
+        problem.cost.dx[k].reference = point.v;
+        problem.cost.ddx[k] = Term::new(speed.weights.acc, point.a);
     }
-    qp.admit_initial_state();
-    let solution = context.speed_solver.solve(&qp).map_err(|error| match error {
-        SolveError::Infeasible => TaskError::Infeasible,
-        _ => TaskError::NotSolved,
-    })?;
+    problem.admit_initial_state();
+    let solution = solve(plan, &problem, &mut context.speed_solver)?;
     plan.speed = Some(profile(&solution));
     plan.stop = guide.stop;
     Ok(())
+}
+
+fn solve(problem: &Problem, solver: &mut Riccati) -> Result<Solution, TaskError> {
+    solver.solve(problem).map_err(|error| match error {
+        SolveError::Infeasible => TaskError::Infeasible,
+        _ => TaskError::NotSolved,
+    })
 }
 
 /// The profile of a solution. Speeds are held above nothing only at the knots, so one that stands rolls back and forth
@@ -92,6 +113,6 @@ fn problem(plan: &LinePlan, guide: &SpeedData, wall: f64) -> Result<SpeedProblem
         s_ref: guide.points.iter().map(|point| point.s).collect(),
         v_ref: 0.0,
         kappa: guide.points.iter().map(|point| kappa(point.s)).collect(),
-        coupling: JerkCoupling::Symmetric,
+        coupling: scene.config.quirks.jerk_coupling(),
     })
 }
