@@ -83,7 +83,8 @@ fn self_lane(plan: &LinePlan) -> Option<Path> {
 
 /// At the car's own distance from the line all along it: a parallel curve, not a copy shifted aside.
 fn offset_line(scene: &Scene) -> Option<Path> {
-    let is_on_line = scene.ego.s <= scene.line.length() && scene.ego.l.abs() <= LARGEST_OFFSET;
+    let along = scene.line.start() - LARGEST_OFFSET..=scene.line.length();
+    let is_on_line = along.contains(&scene.ego.s) && scene.ego.l.abs() <= LARGEST_OFFSET;
     if !is_on_line {
         return None;
     }

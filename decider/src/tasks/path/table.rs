@@ -7,6 +7,9 @@ use crate::reference_line::{LineQuery, ReferenceLine};
 /// Distance between the points of a path, m.
 pub(crate) const STEP: f64 = 1.0;
 
+/// No path is longer, in points: ten times the bounds of the original.
+const MOST_ROWS: usize = 1000;
+
 /// One point of the line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
@@ -32,7 +35,7 @@ impl LineTable {
         let mut rows: Vec<Row> = Vec::with_capacity(128);
         let end = end_s.min(line.length());
         let mut s = s0;
-        while s <= end {
+        while s <= end && rows.len() < MOST_ROWS {
             let at = line.point(s);
             let (sin, cos) = angle::sin_cos(at.theta);
             rows.push(Row {
