@@ -116,8 +116,12 @@ impl Foot {
         (dx * dx + dy * dy).sqrt().copysign(cos * dy - sin * dx)
     }
 
-    /// The motion in the plane of a motion along the line at this foot; `None` at or beyond the centre of the bend.
+    /// The motion in the plane of a motion along the line at this foot; `None` at or beyond the centre of the bend, and
+    /// for a motion at another station.
     pub fn to_plane(&self, motion: &FrenetMotion) -> Option<PlaneMotion> {
+        if (self.s - motion.s[0]).abs() >= SAME_STATION {
+            return None;
+        }
         let offset = Offset::new(self.kappa, self.dkappa, motion.l)?;
         let (v, a) = offset.speed(motion.s[1], motion.s[2]);
         let (sin, cos) = angle::sin_cos(self.pose.theta);

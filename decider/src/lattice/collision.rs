@@ -17,7 +17,7 @@ const SIDEWAYS: f64 = 0.1;
 
 /// A rectangle with a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GrownBox {
+pub(super) struct GrownBox {
     center: Vec2,
     forward: Vec2,
     /// Half its length and width, m.

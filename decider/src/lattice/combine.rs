@@ -46,14 +46,13 @@ impl LongitudinalTrack {
         let start = curve.at[0][0];
         let (mut before, mut place) = (f64::NEG_INFINITY, 0);
         for (t, [s, v, a, _]) in TIMES.iter().zip(&curve.at) {
-            let goes_back = *s < before;
             let s = s.max(before);
             if s > line.end() {
                 break;
             }
             before = s;
             let foot = line.at_next(s, &mut place);
-            let speed = if goes_back { (LEAST_SPEED, 0.0) } else { (v.max(LEAST_SPEED), *a) };
+            let speed = (v.max(LEAST_SPEED), *a);
             self.points.push(OnLine {
                 t: *t,
                 foot,

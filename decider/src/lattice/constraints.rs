@@ -36,7 +36,7 @@ pub enum Violation {
 }
 
 /// Time, speed, acceleration and curvature of a trajectory's point.
-pub type Dynamics = [f64; 4];
+type Dynamics = [f64; 4];
 
 /// Whether a longitudinal curve keeps speed, acceleration and jerk at all times of the grid before its end.
 pub fn keeps_longitudinal_limits(curve: &Curve) -> bool {
@@ -59,8 +59,8 @@ pub fn keeps_lateral_limits(lateral: &Curve, longitudinal: &Curve) -> bool {
 }
 
 /// The first thing that a trajectory does within the horizon that it may not: first among its points, then among its
-/// pairs of points.
-pub fn violation(points: impl Iterator<Item = Dynamics> + Clone) -> Option<Violation> {
+/// pairs of points. A point is time, speed, acceleration and curvature.
+pub fn violation(points: impl Iterator<Item = [f64; 4]> + Clone) -> Option<Violation> {
     let points = points.take_while(|[t, ..]| *t <= HORIZON);
     let inside = |value: f64, (low, high): (f64, f64)| value >= low && value <= high;
     let of_point = |[_, v, a, kappa]: Dynamics| {

@@ -2,7 +2,7 @@
 
 use super::compare::agree;
 use super::{SpeedCase, rows};
-use corridor_decider::fallback::{constant_deceleration, extract, standstill};
+use corridor_decider::fallback::speed_profile::{constant_deceleration, extract, standstill};
 use serde::Deserialize;
 use serde_json::json;
 
