@@ -34,7 +34,7 @@ fn a_number_that_is_off_is_reported() {
     let places = [
         ("cartesian_to_frenet", "/d/2"),
         ("frenet_to_cartesian", "/theta"),
-        ("quintic", "/coef/4"),
+        ("cubic", "/coef/3"),
         ("lattice_trajectory1d", "/values/3/1"),
         ("sample_lon_cruising", "/end_conditions/7/1"),
         ("sample_lon_path_time_points", "/end_conditions/3/0"),

@@ -71,7 +71,7 @@ pub fn without_context(
 }
 
 /// The end of the chain: as hard as it can, the wheels as they are.
-pub(super) fn brake_on_arc(start: &StartPoint, vehicle: &VehicleParams) -> Vec<TrajectoryPoint> {
+pub(crate) fn brake_on_arc(start: &StartPoint, vehicle: &VehicleParams) -> Vec<TrajectoryPoint> {
     let (_, profile) = speed::stopping(start, vehicle, None, &|_| false);
     trajectory::on(&profile, |distance| (held_arc::pose(start, distance), start.kappa))
 }

@@ -13,6 +13,7 @@ pub mod speed_profile;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use blind::brake_on_arc;
 pub use blind::{context_failure, without_context};
 pub use braking::{BrakingLimits, braking_profile};
 
@@ -101,7 +102,7 @@ pub fn along_line(
 fn emergency_stop(plan: &LinePlan, cause: FallbackCause) -> Driven {
     Driven {
         path: Vec::new(),
-        trajectory: blind::brake_on_arc(&plan.scene.start, plan.scene.vehicle),
+        trajectory: brake_on_arc(&plan.scene.start, plan.scene.vehicle),
         outcome: Outcome::EmergencyStop,
         fallback: Some(Fallback {
             cause,
