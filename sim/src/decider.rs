@@ -3,10 +3,10 @@
 
 use crate::faults::{self, Failure, Fault, Part, SUDDEN, mirrored, not_a_number};
 use crate::settings::Settings;
+use corridor_decider::config::PlannerKind;
 use corridor_decider::context::Context;
 use corridor_decider::decision::Decision;
 use corridor_decider::frame::Frame;
-use corridor_decider::config::PlannerKind;
 use corridor_decider::planner::{self, LatticePlanner, Planner};
 use corridor_scenarios::Scenario;
 use std::any::Any;
@@ -84,9 +84,12 @@ impl Decider {
         if parts.is_empty() {
             return self.planner.decide(frame, &mut self.context);
         }
-        let frame = parts.iter().fold(frame.clone(), |frame, part| faults::without(frame, *part));
+        let frame = parts
+            .iter()
+            .fold(frame.clone(), |frame, part| faults::without(frame, *part));
         let fails = |part| parts.iter().any(|failing| failing.is(part));
-        self.planner.decide_with_failures(&frame, &mut self.context, &fails)
+        self.planner
+            .decide_with_failures(&frame, &mut self.context, &fails)
     }
 }
 
@@ -96,4 +99,3 @@ pub(crate) fn said(panic: &(dyn Any + Send)) -> &str {
     text.or(panic.downcast_ref::<&str>().copied())
         .unwrap_or("no message")
 }
-

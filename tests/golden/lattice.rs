@@ -10,10 +10,16 @@ const VECTORS: &[u8] = include_bytes!("../data/lattice.jsonl.gz");
 /// The first sound case of a function.
 fn case(function: &str) -> Value {
     let mut text = String::new();
-    flate2::read::GzDecoder::new(VECTORS).read_to_string(&mut text).unwrap();
-    let mut cases = text.lines().map(|line| serde_json::from_str::<Value>(line).unwrap());
+    flate2::read::GzDecoder::new(VECTORS)
+        .read_to_string(&mut text)
+        .unwrap();
+    let mut cases = text
+        .lines()
+        .map(|line| serde_json::from_str::<Value>(line).unwrap());
     let is_wanted = |case: &Value| {
-        case["function"] == function && case.get("defect").is_none() && case["expected"].get("result").is_none()
+        case["function"] == function
+            && case.get("defect").is_none()
+            && case["expected"].get("result").is_none()
     };
     cases.find(is_wanted).unwrap()
 }
@@ -51,7 +57,10 @@ fn a_number_that_is_off_is_reported() {
     for (function, place) in places {
         let mut wrong = case(function);
         add(wrong["expected"].pointer_mut(place).unwrap(), 1e-3);
-        let output = conformance(&[&file(&format!("off-{function}.jsonl"), wrong.to_string().as_bytes())]);
+        let output = conformance(&[&file(
+            &format!("off-{function}.jsonl"),
+            wrong.to_string().as_bytes(),
+        )]);
         assert_eq!(last_line(&output), "0 passed, 1 failed", "{function}");
     }
 }
@@ -67,7 +76,10 @@ fn a_wrong_flag_is_reported() {
         let mut wrong = case(function);
         let flag = wrong["expected"].pointer_mut(place).unwrap();
         *flag = (!flag.as_bool().unwrap()).into();
-        let output = conformance(&[&file(&format!("flag-{function}.jsonl"), wrong.to_string().as_bytes())]);
+        let output = conformance(&[&file(
+            &format!("flag-{function}.jsonl"),
+            wrong.to_string().as_bytes(),
+        )]);
         assert_eq!(last_line(&output), "0 passed, 1 failed", "{function}");
     }
 }

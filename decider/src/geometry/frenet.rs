@@ -83,7 +83,10 @@ impl Offset {
 
     /// Speed and acceleration along the path of a motion along the line.
     pub fn speed(&self, s_dot: f64, s_ddot: f64) -> (f64, f64) {
-        (s_dot.abs() * self.stretch, s_ddot * self.stretch + s_dot * s_dot * self.drift)
+        (
+            s_dot.abs() * self.stretch,
+            s_ddot * self.stretch + s_dot * s_dot * self.drift,
+        )
     }
 }
 

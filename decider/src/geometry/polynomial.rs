@@ -52,7 +52,14 @@ impl Polynomial {
         // What the start leaves of value and slope, each divided by its power of p.
         let value = (x1 - x0 - v0 * p - a0 * p * p / 2.0) / (p * p * p);
         let slope = (v1 - v0 - a0 * p) / (p * p);
-        let coefficients = [x0, v0, a0 / 2.0, 4.0 * value - slope, (slope - 3.0 * value) / p, 0.0];
+        let coefficients = [
+            x0,
+            v0,
+            a0 / 2.0,
+            4.0 * value - slope,
+            (slope - 3.0 * value) / p,
+            0.0,
+        ];
         Some(Self::new(coefficients, length))
     }
 
@@ -157,8 +164,14 @@ mod tests {
         let (start, p) = ([0.3, -1.2, 0.7], 2.5);
         let kinds = [
             (Polynomial::cubic(start, 4.0, p), [Some(4.0), None, None]),
-            (Polynomial::quartic(start, [2.0, -0.5], p), [None, Some(2.0), Some(-0.5)]),
-            (Polynomial::quartic_to_slope(start, [4.0, 2.0], p), [Some(4.0), Some(2.0), None]),
+            (
+                Polynomial::quartic(start, [2.0, -0.5], p),
+                [None, Some(2.0), Some(-0.5)],
+            ),
+            (
+                Polynomial::quartic_to_slope(start, [4.0, 2.0], p),
+                [Some(4.0), Some(2.0), None],
+            ),
             (
                 Polynomial::quartic_from_slope([0.3, -1.2], [4.0, 2.0, -0.5], p),
                 [Some(4.0), Some(2.0), Some(-0.5)],
@@ -173,11 +186,15 @@ mod tests {
             let (first, last) = (polynomial.at(0.0), polynomial.at(p));
             assert!((first[0] - 0.3).abs() < 1e-12 && (first[1] + 1.2).abs() < 1e-12);
             for (value, wanted) in last.iter().zip(end) {
-                assert!(wanted.is_none_or(|wanted| (value - wanted).abs() < 1e-12), "{polynomial:?}");
+                assert!(
+                    wanted.is_none_or(|wanted| (value - wanted).abs() < 1e-12),
+                    "{polynomial:?}"
+                );
             }
             for order in 0..5 {
                 let step = 1e-5;
-                let slope = (polynomial.derivative(order, 1.0 + step) - polynomial.derivative(order, 1.0 - step))
+                let slope = (polynomial.derivative(order, 1.0 + step)
+                    - polynomial.derivative(order, 1.0 - step))
                     / (2.0 * step);
                 assert!((slope - polynomial.derivative(order + 1, 1.0)).abs() < 1e-6 * slope.abs().max(1.0));
             }

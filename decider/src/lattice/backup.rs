@@ -32,9 +32,17 @@ pub fn backup_order(s: f64, v: f64, laterals: &[Curve]) -> Vec<BackupPair> {
             })
         })
         .collect();
-    let end = |pair: &BackupPair| (laterals[pair.lateral].end().abs(), laterals[pair.lateral].length());
+    let end = |pair: &BackupPair| {
+        (
+            laterals[pair.lateral].end().abs(),
+            laterals[pair.lateral].length(),
+        )
+    };
     pairs.sort_by(|a, b| {
-        let braking = b.end_speed.total_cmp(&a.end_speed).then(b.deceleration.total_cmp(&a.deceleration));
+        let braking = b
+            .end_speed
+            .total_cmp(&a.end_speed)
+            .then(b.deceleration.total_cmp(&a.deceleration));
         let (a, b) = (end(a), end(b));
         braking.then(a.0.total_cmp(&b.0)).then(a.1.total_cmp(&b.1))
     });

@@ -53,13 +53,22 @@ pub fn longitudinal_bundle(
     path_time: &[EndCondition],
     stop: &[EndCondition],
 ) -> Vec<Longitudinal> {
-    let kinds = [(Kind::Cruise, cruise), (Kind::PathTime, path_time), (Kind::Stop, stop)];
-    let curves = kinds.into_iter().flat_map(|(kind, ends)| ends.iter().map(move |end| (kind, *end)));
-    curves.filter_map(|(kind, end)| Longitudinal::new(kind, start, end)).collect()
+    let kinds = [
+        (Kind::Cruise, cruise),
+        (Kind::PathTime, path_time),
+        (Kind::Stop, stop),
+    ];
+    let curves = kinds
+        .into_iter()
+        .flat_map(|(kind, ends)| ends.iter().map(move |end| (kind, *end)));
+    curves
+        .filter_map(|(kind, end)| Longitudinal::new(kind, start, end))
+        .collect()
 }
 
 /// The sampled lateral curves from the offset that the car has now.
 pub fn lateral_bundle(initial: &FrenetMotion) -> Vec<Polynomial> {
     let ends = end_conditions::lateral().into_iter();
-    ends.filter_map(|end| Polynomial::quintic(initial.l, end.state, end.length)).collect()
+    ends.filter_map(|end| Polynomial::quintic(initial.l, end.state, end.length))
+        .collect()
 }

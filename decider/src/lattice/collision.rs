@@ -123,7 +123,10 @@ impl CollisionEnvironment {
             .filter(|obstacle| !ignored(obstacle))
             .map(|obstacle| (obstacle, Outline::of(obstacle)))
             .collect();
-        let standing: Vec<GrownBox> = kept.iter().map(|(obstacle, outline)| outline.at(obstacle.pose)).collect();
+        let standing: Vec<GrownBox> = kept
+            .iter()
+            .map(|(obstacle, outline)| outline.at(obstacle.pose))
+            .collect();
         let mut places = vec![0; kept.len()];
         let mut frame = |t: &f64| -> Vec<GrownBox> {
             let boxes = kept.iter().zip(&standing).zip(&mut places);
@@ -140,7 +143,13 @@ impl CollisionEnvironment {
 
     /// The boxes that a car may touch whose offset from the line is at most `largest_offset`, in place of those of
     /// `near`.
-    pub fn find_near(&self, track: &LongitudinalTrack, largest_offset: f64, ego: &Footprint, near: &mut Near) {
+    pub fn find_near(
+        &self,
+        track: &LongitudinalTrack,
+        largest_offset: f64,
+        ego: &Footprint,
+        near: &mut Near,
+    ) {
         near.starts.clear();
         near.boxes.clear();
         let around = largest_offset + ego.ahead + ego.radius;

@@ -43,6 +43,8 @@ pub struct LatticeConfig {
     pub weights: Weights,
     /// What a line costs that is not the preferred one.
     pub cost_non_priority_reference_line: f64,
+    /// The same while the car is asked to change lanes: more than the change costs at any speed, less than braking.
+    pub cost_unheeded_command: f64,
 }
 
 impl Default for LatticeConfig {
@@ -51,6 +53,7 @@ impl Default for LatticeConfig {
             lateral_optimization: true,
             weights: Weights::default(),
             cost_non_priority_reference_line: 5.0,
+            cost_unheeded_command: 100.0,
         }
     }
 }

@@ -84,7 +84,10 @@ pub fn violation(points: impl Iterator<Item = [f64; 4]> + Clone) -> Option<Viola
         }
     };
     let mut pairs = points.clone().zip(points.clone().skip(1));
-    points.clone().find_map(of_point).or_else(|| pairs.find_map(of_pair))
+    points
+        .clone()
+        .find_map(of_point)
+        .or_else(|| pairs.find_map(of_pair))
 }
 
 /// Whether a curvature is one that the car can drive.

@@ -33,7 +33,9 @@ const FARTHEST: usize = 200;
 
 /// A soft maximum: the mean of the sizes, each weighted with itself.
 fn soft_maximum(values: impl Iterator<Item = f64>) -> f64 {
-    let (squares, sizes) = values.fold((0.0, 0.0), |(squares, sizes), x| (squares + x * x, sizes + x.abs()));
+    let (squares, sizes) = values.fold((0.0, 0.0), |(squares, sizes), x| {
+        (squares + x * x, sizes + x.abs())
+    });
     squares / (sizes + EPSILON)
 }
 
@@ -72,7 +74,12 @@ pub struct LongitudinalCosts {
 
 impl LongitudinalCosts {
     /// The costs of a curve. `blocked` is what the path-time graph holds at the times of the grid.
-    pub fn new(curve: &Sampled, guide: &[f64; SAMPLES], blocked: &[Vec<(f64, f64)>], line: &LineTable) -> Self {
+    pub fn new(
+        curve: &Sampled,
+        guide: &[f64; SAMPLES],
+        blocked: &[Vec<(f64, f64)>],
+        line: &LineTable,
+    ) -> Self {
         let mut place = 0;
         let centripetal = |[s, v, ..]: &[f64; 4]| v * v * line.kappa(*s, &mut place);
         Self {
@@ -142,7 +149,11 @@ impl LateralProfile {
 
     /// What the offset costs over a way in metres. The original mistakes the station at its end for the way.
     pub fn offset_cost(&self, way: f64) -> f64 {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "saturates"
+        )]
         let metres = (way.ceil().max(0.0) as usize).min(FARTHEST);
         let (squares, sizes) = self.sums[metres];
         squares / (sizes + EPSILON)

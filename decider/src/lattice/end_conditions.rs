@@ -93,7 +93,8 @@ pub fn path_time(
 ) -> Vec<EndCondition> {
     let mut ends = Vec::new();
     let mut push = |point: StPoint, s: f64| {
-        let is_feasible = point.t >= SHORTEST && (region.s_lower(point.t)..=region.s_upper(point.t)).contains(&s);
+        let is_feasible =
+            point.t >= SHORTEST && (region.s_lower(point.t)..=region.s_upper(point.t)).contains(&s);
         if is_feasible {
             ends.push(EndCondition {
                 state: [s, speed(point), 0.0],

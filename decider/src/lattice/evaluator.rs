@@ -51,7 +51,9 @@ impl PartialOrd for Entry {
 impl Ord for Entry {
     fn cmp(&self, other: &Self) -> Ordering {
         let places = |entry: &Self| (entry.longitudinal, entry.lateral);
-        self.cost.total_cmp(&other.cost).then(places(self).cmp(&places(other)))
+        self.cost
+            .total_cmp(&other.cost)
+            .then(places(self).cmp(&places(other)))
     }
 }
 
@@ -130,7 +132,9 @@ impl<'a> Evaluator<'a> {
 
     /// Samples of a longitudinal curve by its place in the bundle.
     pub fn sampled(&self, place: usize) -> Option<&Sampled> {
-        let found = self.candidates.binary_search_by_key(&place, |candidate| candidate.place);
+        let found = self
+            .candidates
+            .binary_search_by_key(&place, |candidate| candidate.place);
         found.ok().map(|k| &self.candidates[k].sampled)
     }
 }

@@ -96,6 +96,12 @@ pub fn guide_speeds(target: &PlanningTarget, s: f64, v: f64) -> [f64; SAMPLES] {
         duration: HORIZON + EPSILON,
     };
     let profile = braking_profile((s, stop_s), (v.max(0.0), target.cruise_speed), with);
-    let speed = |t: f64| profile.as_ref().ok().and_then(|profile| profile.at(t)).map_or(0.0, |[_, v, _]| v);
+    let speed = |t: f64| {
+        profile
+            .as_ref()
+            .ok()
+            .and_then(|profile| profile.at(t))
+            .map_or(0.0, |[_, v, _]| v)
+    };
     TIMES.map(speed)
 }

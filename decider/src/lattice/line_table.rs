@@ -8,6 +8,21 @@ use crate::reference_line::{LineQuery, SlPoint};
 /// millimetre in the tightest bend that a car can drive.
 const SPACING: f64 = 0.5;
 
+/// Half the length over which the change of a smooth line's curvature is taken, m.
+const BEND_STEP: f64 = 0.5;
+
+/// What belongs to a station of a smooth line, exactly.
+pub fn foot_on<L: LineQuery + ?Sized>(line: &L, s: f64) -> Foot {
+    let at = line.point(s);
+    let change = line.point(s + BEND_STEP).kappa - line.point(s - BEND_STEP).kappa;
+    Foot {
+        s,
+        pose: Pose::new(at.x, at.y, at.theta),
+        kappa: at.kappa,
+        dkappa: change / (2.0 * BEND_STEP),
+    }
+}
+
 /// A line by points. At least two, by ascending station.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineTable {
@@ -20,7 +35,10 @@ impl LineTable {
     /// Straight pieces between points, as the original has them; `None` for fewer than two, or out of order.
     pub fn polyline(feet: Vec<Foot>) -> Option<Self> {
         let ordered = feet.windows(2).all(|pair| pair[1].s > pair[0].s);
-        (feet.len() >= 2 && ordered).then_some(Self { feet, has_arcs: false })
+        (feet.len() >= 2 && ordered).then_some(Self {
+            feet,
+            has_arcs: false,
+        })
     }
 
     /// A smooth line from one station to another, as far as it leads; `None` where that is no length.
@@ -45,7 +63,10 @@ impl LineTable {
         for k in 1..feet.len().saturating_sub(1) {
             feet[k].dkappa = (feet[k + 1].kappa - feet[k - 1].kappa) / (feet[k + 1].s - feet[k - 1].s);
         }
-        Self::polyline(feet).map(|table| Self { has_arcs: true, ..table })
+        Self::polyline(feet).map(|table| Self {
+            has_arcs: true,
+            ..table
+        })
     }
 
     /// Last station, m.

@@ -29,6 +29,8 @@ mod piecewise;
 mod piecewise_acceleration;
 mod plan;
 mod prediction;
+#[cfg(test)]
+mod tests;
 
 pub use backup::{BACKUP_DECELERATIONS, BackupPair, backup_order};
 pub use bundle::{Kind, Longitudinal, lateral_bundle, longitudinal_bundle};
@@ -45,7 +47,7 @@ pub use grid::{HORIZON, SAMPLES, TIMES};
 pub use guide::{Braking, GuideError, braking_profile, guide_speeds};
 pub use lateral_bounds::{StaticBox, lateral_bounds};
 pub use lateral_optimum::lateral_optimum;
-pub use line_table::LineTable;
+pub use line_table::{LineTable, foot_on};
 pub use path_time_graph::{LaneWidth, PathTimeEntry, PathTimeGraph, Project};
 pub use piecewise::Piecewise;
 pub use piecewise_acceleration::{PiecewiseAcceleration, PiecewiseError};

@@ -59,7 +59,11 @@ impl PathTimeEntry {
     /// Points beside it about a second apart: above its upper edge for a positive distance, below its lower one else.
     pub fn points_beside(&self, distance: f64) -> Vec<StPoint> {
         let duration = self.leaves.t - self.enters.t;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most eight seconds")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "at most eight seconds"
+        )]
         let steps = (duration / DENSITY + 1.0).floor().max(1.0) as usize;
         let point = |k: usize| {
             let t = self.enters.t + k as f64 * (duration / steps as f64);
@@ -77,7 +81,7 @@ impl PathTimeEntry {
 /// The graph along one line.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathTimeGraph {
-    /// The entries in the order of the obstacles.
+    /// The entries by ascending identity.
     pub entries: Vec<PathTimeEntry>,
     /// What stands in the lane, by ascending start.
     pub standing: Vec<StaticBox>,
@@ -93,7 +97,11 @@ struct Extent {
 impl PathTimeGraph {
     /// The graph of obstacles from station `s` of the car on.
     pub fn new(obstacles: &[Obstacle], s: f64, lane_width: LaneWidth, project: Project) -> Self {
-        let survey = Survey { s, lane_width, project };
+        let survey = Survey {
+            s,
+            lane_width,
+            project,
+        };
         let mut graph = Self::default();
         for obstacle in obstacles {
             if obstacle.prediction.is_empty() {
@@ -102,7 +110,11 @@ impl PathTimeGraph {
                 graph.entries.push(entry);
             }
         }
-        graph.standing.sort_by(|a, b| a.s.0.total_cmp(&b.s.0).then(a.id.cmp(&b.id)));
+        // Sums over entries must not hang on the order in which obstacles come.
+        graph.entries.sort_by_key(|entry| entry.id);
+        graph
+            .standing
+            .sort_by(|a, b| a.s.0.total_cmp(&b.s.0).then(a.id.cmp(&b.id)));
         graph
     }
 
@@ -116,7 +128,11 @@ impl PathTimeGraph {
             enters: StPair::new(0.0, s.0, s.1),
             leaves: StPair::new(HORIZON, s.0, s.1),
         });
-        self.standing.push(StaticBox { id: obstacle.id, s, l });
+        self.standing.push(StaticBox {
+            id: obstacle.id,
+            s,
+            l,
+        });
     }
 
     /// What is occupied at a time, in the order of the entries.

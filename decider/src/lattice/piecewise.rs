@@ -62,7 +62,10 @@ impl Piecewise {
     }
 
     fn piece_at(&self, p: f64) -> (&Polynomial, f64) {
-        let place = self.pieces.partition_point(|(end, _)| *end < p).min(self.pieces.len() - 1);
+        let place = self
+            .pieces
+            .partition_point(|(end, _)| *end < p)
+            .min(self.pieces.len() - 1);
         let start = place.checked_sub(1).map_or(0.0, |before| self.pieces[before].0);
         (&self.pieces[place].1, p - start)
     }

@@ -89,7 +89,9 @@ impl PiecewiseAcceleration {
         if !inside {
             return None;
         }
-        let place = self.knots[1..].partition_point(|knot| knot.t < t).min(self.accelerations.len() - 1);
+        let place = self.knots[1..]
+            .partition_point(|knot| knot.t < t)
+            .min(self.accelerations.len() - 1);
         let (knot, a) = (self.knots[place], self.accelerations[place]);
         let dt = t - knot.t;
         Some([knot.s + knot.v * dt + 0.5 * a * dt * dt, knot.v + a * dt, a])

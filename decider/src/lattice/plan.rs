@@ -27,6 +27,9 @@ use crate::vehicle::VehicleParams;
 /// How far before the stop point stop curves end, m: what the stop filter asks for, and a little more.
 const STOP_MARGIN: f64 = STOP_BUFFER + 0.01;
 
+/// A car that is this near to its stop point has arrived, m.
+const ARRIVED: f64 = 0.1;
+
 /// Beside the line by less than this, what is behind the car in its lane is left to look out for itself, m.
 const LANE_HALF_WIDTH: f64 = 2.0;
 
@@ -160,7 +163,8 @@ impl<'a> Lattice<'a> {
 
     fn lay(&self, curve: &Sampled, laid: &mut Laid) {
         laid.track.lay(curve, self.task.line);
-        self.environment.find_near(&laid.track, self.largest_offset, &self.ego, &mut laid.near);
+        self.environment
+            .find_near(&laid.track, self.largest_offset, &self.ego, &mut laid.near);
     }
 
     /// What is wrong with a pair, if anything is; its points are left in `points`.
@@ -181,7 +185,10 @@ impl<'a> Lattice<'a> {
         pairs.sort_by_key(|pair| (pair.longitudinal, pair.lateral));
         let (mut laid, mut points, mut on) = (Laid::default(), Vec::with_capacity(SAMPLES), None);
         let mut assess = |pair: Pair| {
-            if let Some(sampled) = queue.sampled(pair.longitudinal).filter(|_| on != Some(pair.longitudinal)) {
+            if let Some(sampled) = queue
+                .sampled(pair.longitudinal)
+                .filter(|_| on != Some(pair.longitudinal))
+            {
                 self.lay(sampled, &mut laid);
                 on = Some(pair.longitudinal);
             }
@@ -203,7 +210,9 @@ impl<'a> Lattice<'a> {
         let mut laid: Vec<Option<Laid>> = vec![None; self.longitudinal.len()];
         while let Some(pair) = queue.next() {
             sizes.looked_at += 1;
-            let Some(sampled) = queue.sampled(pair.longitudinal) else { continue };
+            let Some(sampled) = queue.sampled(pair.longitudinal) else {
+                continue;
+            };
             let laid = laid[pair.longitudinal].get_or_insert_with(|| {
                 let mut laid = Laid::default();
                 self.lay(sampled, &mut laid);
@@ -224,7 +233,11 @@ impl<'a> Lattice<'a> {
     /// The gentlest constant braking that touches nothing, else the hardest.
     fn backup(&self, sizes: Sizes) -> Option<Planned> {
         let [s, v, _] = self.task.initial.s;
-        let curves: Vec<Curve> = self.laterals.iter().map(|lateral| lateral.curve.clone()).collect();
+        let curves: Vec<Curve> = self
+            .laterals
+            .iter()
+            .map(|lateral| lateral.curve.clone())
+            .collect();
         let planned = |outcome, points, lateral: usize| Planned {
             outcome,
             points,
@@ -232,7 +245,9 @@ impl<'a> Lattice<'a> {
             sizes,
         };
         for pair in backup_order(s, v, &curves) {
-            let Some((points, rejection)) = self.braking(pair) else { continue };
+            let Some((points, rejection)) = self.braking(pair) else {
+                continue;
+            };
             if rejection.is_none() {
                 return Some(planned(Outcome::Backup(pair), points, pair.lateral));
             }
@@ -272,21 +287,35 @@ impl<'a> Lattice<'a> {
 fn longitudinal(task: &LineTask, graph: &PathTimeGraph) -> Vec<Longitudinal> {
     let [s, v, _] = task.initial.s;
     let region = FeasibleRegion::new(s, v);
+    if task.target.stop_s.is_some_and(|stop_s| s >= stop_s - ARRIVED) {
+        // The stop filter lets everything pass that is beyond the stop point; nothing but standing is wanted there.
+        return longitudinal_bundle(task.initial.s, &end_conditions::cruise(&region, 0.0), &[], &[]);
+    }
     let mut beside = Vec::new();
     for entry in &graph.entries {
-        let motions = task.obstacles.iter().find(|obstacle| obstacle.id == entry.id).map(motions_of);
+        let motions = task
+            .obstacles
+            .iter()
+            .find(|obstacle| obstacle.id == entry.id)
+            .map(motions_of);
         let motions = motions.unwrap_or_default();
         beside.extend(end_conditions::path_time(entry, &region, task.vehicle, |point| {
             projected_speed(&motions, task.line.at(point.s).pose.theta, point.t)
         }));
     }
-    let stop = task.target.stop_s.map(|stop_s| end_conditions::stop(s, stop_s - STOP_MARGIN));
+    let stop = task
+        .target
+        .stop_s
+        .map(|stop_s| end_conditions::stop(s, stop_s - STOP_MARGIN));
     let cruise = end_conditions::cruise(&region, task.target.cruise_speed);
     longitudinal_bundle(task.initial.s, &cruise, &beside, &stop.unwrap_or_default())
 }
 
 fn laterals(task: &LineTask, graph: &PathTimeGraph) -> Vec<LateralProfile> {
-    let mut curves: Vec<Curve> = lateral_bundle(&task.initial).into_iter().map(Curve::from).collect();
+    let mut curves: Vec<Curve> = lateral_bundle(&task.initial)
+        .into_iter()
+        .map(Curve::from)
+        .collect();
     if task.config.lateral_optimization {
         let (s, l) = (task.initial.s[0], task.initial.l[0]);
         let bounds = lateral_bounds(s, l, &graph.standing, task.lane_width, task.vehicle);

@@ -41,7 +41,11 @@ pub fn motions_of(obstacle: &Obstacle) -> Vec<PredictedMotion> {
         PredictedMotion {
             t: poses[k].t,
             v: if dt > 0.0 { length / dt } else { 0.0 },
-            theta: if length > 0.0 { libm::atan2(moved.y, moved.x) } else { poses[k].pose.theta },
+            theta: if length > 0.0 {
+                libm::atan2(moved.y, moved.x)
+            } else {
+                poses[k].pose.theta
+            },
         }
     };
     (0..poses.len()).map(motion).collect()

@@ -6,11 +6,8 @@ use crate::decision::{Decision, Fallback, FallbackCause, Outcome, SpeedRung, Sto
 use crate::fallback;
 use crate::frame::{Command, Frame};
 use crate::geometry::Vec2;
-use crate::geometry::frenet::{Foot, FrenetMotion, PlaneMotion};
-use crate::geometry::Pose;
-use crate::lattice::{
-    self, Lattice, LineTable, LineTask, PlanningTarget, Planned,
-};
+use crate::geometry::frenet::{FrenetMotion, PlaneMotion};
+use crate::lattice::{self, Lattice, LineTable, LineTask, Planned, PlanningTarget};
 use crate::reference_line::{LineQuery, ReferenceLine};
 use crate::st_graph::StPair;
 use crate::tasks::lane_change;
@@ -90,7 +87,8 @@ impl LatticePlanner {
     fn plan(&self, frame: &Frame, start: StartPoint, context: &mut Context) -> Decision {
         context.blind_since = None;
         let preferred = lane_change::target_line(frame).unwrap_or(0);
-        let lines = (0..frame.lines.len()).filter_map(|place| self.plan_line(frame, place, place == preferred, &start));
+        let lines = (0..frame.lines.len())
+            .filter_map(|place| self.plan_line(frame, place, place == preferred, &start));
         let best = lines.min_by(|a, b| a.cost.total_cmp(&b.cost));
         let decision = match best {
             Some(best) => conclude(best, &start),
@@ -111,7 +109,13 @@ impl LatticePlanner {
     }
 
     /// The plan along one line; `None` where the car's motion has no place on it.
-    fn plan_line(&self, frame: &Frame, place: usize, is_preferred: bool, start: &StartPoint) -> Option<OfLine> {
+    fn plan_line(
+        &self,
+        frame: &Frame,
+        place: usize,
+        is_preferred: bool,
+        start: &StartPoint,
+    ) -> Option<OfLine> {
         let line = &*frame.lines[place].line;
         let initial = initial_state(line, start)?;
         let [s, v, _] = initial.s;
@@ -120,7 +124,11 @@ impl LatticePlanner {
         let table = LineTable::sampled(line, s - BEHIND, s + reach)?;
         let lane_width = |s| line.lane_width(s);
         let project = |point: Vec2, near: f64| {
-            if near.is_finite() { line.to_frenet_near(point, near) } else { line.to_frenet(point) }
+            if near.is_finite() {
+                line.to_frenet_near(point, near)
+            } else {
+                line.to_frenet(point)
+            }
         };
         let lattice = Lattice::new(LineTask {
             line: &table,
@@ -133,7 +141,7 @@ impl LatticePlanner {
             project: &project,
         });
         let planned = lattice.plan()?;
-        let surcharge = if is_preferred { 0.0 } else { self.config.lattice.cost_non_priority_reference_line };
+        let surcharge = self.surcharge(frame, is_preferred);
         let cost = match planned.outcome {
             lattice::Outcome::Found(pair) => pair.cost,
             lattice::Outcome::Backup(_) => BACKUP_COST,
@@ -147,6 +155,16 @@ impl LatticePlanner {
             table,
             s,
         })
+    }
+
+    /// What a line costs for not being the one that is wanted.
+    fn surcharge(&self, frame: &Frame, is_preferred: bool) -> f64 {
+        let config = &self.config.lattice;
+        match frame.command {
+            _ if is_preferred => 0.0,
+            Command::ChangeLane(_) => config.cost_unheeded_command,
+            _ => config.cost_non_priority_reference_line,
+        }
     }
 
     /// How fast the car may drive along a line, and where it has to stop.
@@ -173,16 +191,12 @@ const OWN_LANE: Label = Label::Regular {
 /// The motion along a line at its exact foot.
 fn initial_state(line: &ReferenceLine, start: &StartPoint) -> Option<FrenetMotion> {
     let at = line.to_frenet(start.pose.position());
-    let here = line.point(at.s);
-    let step = 0.5;
-    let foot = Foot {
-        s: at.s,
-        pose: Pose::new(here.x, here.y, here.theta),
-        kappa: here.kappa,
-        dkappa: (line.point(at.s + step).kappa - line.point(at.s - step).kappa) / (2.0 * step),
+    let a = if start.v < STANDS {
+        start.a.max(0.0)
+    } else {
+        start.a
     };
-    let a = if start.v < STANDS { start.a.max(0.0) } else { start.a };
-    foot.to_frenet(&PlaneMotion {
+    lattice::foot_on(line, at.s).to_frenet(&PlaneMotion {
         pose: start.pose,
         kappa: start.kappa,
         v: start.v,
@@ -194,7 +208,9 @@ fn initial_state(line: &ReferenceLine, start: &StartPoint) -> Option<FrenetMotio
 fn cruise_speed(line: &ReferenceLine, s: f64) -> f64 {
     let samples = line.samples();
     let here = samples.partition_point(|sample| sample.s <= s).saturating_sub(1);
-    let ahead = samples[here..].iter().take_while(|sample| sample.s <= s + LOOK_AHEAD);
+    let ahead = samples[here..]
+        .iter()
+        .take_while(|sample| sample.s <= s + LOOK_AHEAD);
     let reachable = |sample: &crate::reference_line::LineSample| {
         let bend = (BEND_ACCELERATION / sample.point.kappa.abs().max(STRAIGHT)).sqrt();
         let limit = sample.speed_limit.unwrap_or(f64::MAX).min(bend);
@@ -213,15 +229,29 @@ fn stop(lattice: &Lattice, planned: &Planned, frame: &Frame, target: &PlanningTa
         let StPair { lower, .. } = entry.leaves;
         (lower > last.s).then_some(lower)
     };
-    let ahead = lattice.graph.entries.iter().filter(|entry| begins(entry).is_some());
+    let ahead = lattice
+        .graph
+        .entries
+        .iter()
+        .filter(|entry| begins(entry).is_some());
     let nearest = ahead.min_by(|a, b| a.leaves.lower.total_cmp(&b.leaves.lower));
-    let before_stop = |entry: &&lattice::PathTimeEntry| target.stop_s.is_none_or(|stop_s| entry.leaves.lower < stop_s);
+    let before_stop =
+        |entry: &&lattice::PathTimeEntry| target.stop_s.is_none_or(|stop_s| entry.leaves.lower < stop_s);
     let cause = match nearest.filter(before_stop) {
         Some(entry) => {
-            let stands = frame.obstacles.iter().any(|obstacle| obstacle.id == entry.id && obstacle.is_static);
-            if stands { StopCause::Blocked(entry.id) } else { StopCause::Follow(entry.id) }
+            let stands = frame
+                .obstacles
+                .iter()
+                .any(|obstacle| obstacle.id == entry.id && obstacle.is_static);
+            if stands {
+                StopCause::Blocked(entry.id)
+            } else {
+                StopCause::Follow(entry.id)
+            }
         }
-        None if matches!(frame.command, Command::PullOver(_) | Command::EmergencyPullOver) => StopCause::PullOver,
+        None if matches!(frame.command, Command::PullOver(_) | Command::EmergencyPullOver) => {
+            StopCause::PullOver
+        }
         None => StopCause::Destination,
     };
     Some(Stop {
@@ -235,7 +265,9 @@ fn conclude(best: OfLine, start: &StartPoint) -> Decision {
     let (outcome, speed) = match best.planned.outcome {
         lattice::Outcome::Found(_) => (Outcome::Normal, None),
         lattice::Outcome::Backup(_) => (Outcome::SpeedFallback, Some(SpeedRung::LatticeBackup)),
-        lattice::Outcome::LastResort(..) if start.v < STANDS => (Outcome::Hold, Some(SpeedRung::LatticeLastResort)),
+        lattice::Outcome::LastResort(..) if start.v < STANDS => {
+            (Outcome::Hold, Some(SpeedRung::LatticeLastResort))
+        }
         lattice::Outcome::LastResort(..) => (Outcome::EmergencyStop, Some(SpeedRung::LatticeLastResort)),
     };
     let fallback = speed.map(|speed| Fallback {

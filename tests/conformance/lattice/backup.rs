@@ -4,8 +4,8 @@ use super::scene::{self, Body, Start};
 use super::{LatticeCase, graph, near, same};
 use corridor_decider::frame::Obstacle;
 use corridor_decider::lattice::{
-    BACKUP_DECELERATIONS, CollisionEnvironment, ConstantDeceleration, Curve, Footprint, LineTable, LongitudinalTrack, Near,
-    Sampled, backup_order, combine, lateral_bundle,
+    BACKUP_DECELERATIONS, CollisionEnvironment, ConstantDeceleration, Curve, Footprint, LineTable,
+    LongitudinalTrack, Near, Sampled, backup_order, combine, lateral_bundle,
 };
 use corridor_decider::vehicle::VehicleParams;
 use serde::Deserialize;
@@ -33,12 +33,20 @@ fn environment(input: &Input, line: &LineTable, start: &Start) -> CollisionEnvir
     let (left, right) = input.lane_width.unwrap_or((HALF_WIDTH, HALF_WIDTH));
     let in_lane = -right < l && l < left;
     let ignored = |obstacle: &Obstacle| {
-        let now = obstacle.prediction.first().map_or(obstacle.pose, |first| first.pose);
+        let now = obstacle
+            .prediction
+            .first()
+            .map_or(obstacle.pose, |first| first.pose);
         let at = line.frenet(now.position());
         let is_behind = at.s < s && at.l.abs() < HALF_WIDTH;
         in_lane && (is_behind || !graph.contains(obstacle.id))
     };
-    let obstacles: Vec<_> = input.obstacles.iter().enumerate().map(|(k, body)| body.obstacle(k)).collect();
+    let obstacles: Vec<_> = input
+        .obstacles
+        .iter()
+        .enumerate()
+        .map(|(k, body)| body.obstacle(k))
+        .collect();
     // The original's frames begin when the frame does, not when the plan does.
     CollisionEnvironment::new(&obstacles, 0.0, ignored)
 }
@@ -47,22 +55,39 @@ pub(super) fn backup(case: &LatticeCase) -> Result<(), String> {
     let (input, start): (Input, Start) = (case.input()?, case.input()?);
     let line = scene::line(&input.reference_line, scene::full)?;
     let environment = environment(&input, &line, &start);
-    let laterals: Vec<Curve> = lateral_bundle(&start.motion()).into_iter().map(Curve::from).collect();
+    let laterals: Vec<Curve> = lateral_bundle(&start.motion())
+        .into_iter()
+        .map(Curve::from)
+        .collect();
     let (s, v) = (start.init_s[0], start.init_s[1]);
     let ego = Footprint::of(&VehicleParams::default());
     let wanted = case.expected["pairs"].as_array().ok_or("expected: no pairs")?;
-    same("number of pairs", &wanted.len(), &(BACKUP_DECELERATIONS.len() * laterals.len()))?;
+    same(
+        "number of pairs",
+        &wanted.len(),
+        &(BACKUP_DECELERATIONS.len() * laterals.len()),
+    )?;
     let (mut points, mut close) = (Vec::new(), Near::default());
     for (k, wanted) in wanted.iter().enumerate() {
-        let (deceleration, lateral) = (BACKUP_DECELERATIONS[k / laterals.len()], &laterals[k % laterals.len()]);
-        let lateral = laterals.iter().find(|curve| is_named(wanted, curve)).unwrap_or(lateral);
+        let (deceleration, lateral) = (
+            BACKUP_DECELERATIONS[k / laterals.len()],
+            &laterals[k % laterals.len()],
+        );
+        let lateral = laterals
+            .iter()
+            .find(|curve| is_named(wanted, curve))
+            .unwrap_or(lateral);
         near("deceleration", &wanted["deceleration"], deceleration, TOLERANCE)?;
         let braking = ConstantDeceleration::new(s, v, deceleration).ok_or("no braking")?;
         let track = LongitudinalTrack::new(&Sampled::new(&braking.into()), &line);
         environment.find_near(&track, FARTHEST, &ego, &mut close);
         combine(&track, lateral, &mut points);
         let collides = close.touched(&points, &ego).is_some();
-        same(&format!("collision of pair {k}"), &wanted["in_collision"], &json!(collides))?;
+        same(
+            &format!("collision of pair {k}"),
+            &wanted["in_collision"],
+            &json!(collides),
+        )?;
         near("end_speed", &wanted["end_speed"], braking.at(8.0)[1], TOLERANCE)?;
     }
     order(case, s, v, &laterals)
@@ -76,12 +101,19 @@ fn is_named(wanted: &Value, curve: &Curve) -> bool {
 /// The groups of equal end speed, fastest first, and the first of them in which something is free.
 fn order(case: &LatticeCase, s: f64, v: f64, laterals: &[Curve]) -> Result<(), String> {
     let pairs = backup_order(s, v, laterals);
-    let groups = case.expected["priority_groups"].as_array().ok_or("expected: no groups")?;
+    let groups = case.expected["priority_groups"]
+        .as_array()
+        .ok_or("expected: no groups")?;
     let mut tried = pairs.iter();
     for group in groups {
         let decelerations = group["decelerations"].as_array().map_or(0, Vec::len);
         for pair in tried.by_ref().take(decelerations * laterals.len()) {
-            near("end speed of the group", &group["end_speed"], pair.end_speed, TOLERANCE)?;
+            near(
+                "end speed of the group",
+                &group["end_speed"],
+                pair.end_speed,
+                TOLERANCE,
+            )?;
         }
     }
     same("pairs beyond the groups", &0, &tried.count())

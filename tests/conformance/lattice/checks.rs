@@ -5,8 +5,8 @@ use super::frenet::same_direction;
 use super::scene;
 use super::{LatticeCase, near, same};
 use corridor_decider::lattice::{
-    Curve, LongitudinalTrack, Sampled, Violation, combine, keeps_lateral_limits, keeps_longitudinal_limits, trajectory as
-    driven, violation,
+    Curve, LongitudinalTrack, Sampled, Violation, combine, keeps_lateral_limits, keeps_longitudinal_limits,
+    trajectory as driven, violation,
 };
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -32,7 +32,8 @@ pub(super) fn lateral(case: &LatticeCase) -> Result<(), String> {
 }
 
 pub(super) fn trajectory(case: &LatticeCase) -> Result<(), String> {
-    let points: Vec<[f64; 4]> = Vec::deserialize(&case.input["points_t_v_a_kappa"]).map_err(|e| e.to_string())?;
+    let points: Vec<[f64; 4]> =
+        Vec::deserialize(&case.input["points_t_v_a_kappa"]).map_err(|e| e.to_string())?;
     let name = match violation(points.into_iter()) {
         None => "VALID",
         Some(Violation::Speed) => "LON_VELOCITY_OUT_OF_BOUND",
@@ -59,7 +60,8 @@ pub(super) fn combined(case: &LatticeCase) -> Result<(), String> {
     let mut points = Vec::new();
     combine(&track, &input.lat.curve()?, &mut points);
     let got = driven(&points);
-    let wanted: Vec<[f64; 8]> = Vec::deserialize(&case.expected["points"]).map_err(|error| error.to_string())?;
+    let wanted: Vec<[f64; 8]> =
+        Vec::deserialize(&case.expected["points"]).map_err(|error| error.to_string())?;
     same("count", &wanted.len(), &got.len())?;
     for (k, (wanted, got)) in wanted.iter().zip(&got).enumerate() {
         let [t, x, y, theta, kappa, distance, v, a] = *wanted;
@@ -75,7 +77,11 @@ pub(super) fn combined(case: &LatticeCase) -> Result<(), String> {
         for (key, wanted, got) in pairs {
             near(&format!("{key} of point {k}"), &json!(wanted), got, TOLERANCE)?;
         }
-        same(&format!("theta of point {k}"), &true, &same_direction(theta, got.pose.theta, TOLERANCE))?;
+        same(
+            &format!("theta of point {k}"),
+            &true,
+            &same_direction(theta, got.pose.theta, TOLERANCE),
+        )?;
     }
     Ok(())
 }

@@ -6,8 +6,9 @@ use super::scene::{self, Start, Target};
 use super::{LatticeCase, agrees, all_near, near, number, same};
 use corridor_decider::geometry::Polynomial;
 use corridor_decider::lattice::{
-    Braking, Curve, Evaluator, LateralProfile, LineTable, LongitudinalCosts, Pair, SAMPLES, Sampled, Surroundings, Weights,
-    braking_profile, guide_speeds, keeps_longitudinal_limits, keeps_stop, lateral_bundle, lateral_comfort, total_cost,
+    Braking, Curve, Evaluator, LateralProfile, LineTable, LongitudinalCosts, Pair, SAMPLES, Sampled,
+    Surroundings, Weights, braking_profile, guide_speeds, keeps_longitudinal_limits, keeps_stop,
+    lateral_bundle, lateral_comfort, total_cost,
 };
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -23,7 +24,11 @@ fn target(case: &LatticeCase) -> Result<Target, String> {
 
 fn guide_of(case: &LatticeCase) -> Result<[f64; SAMPLES], String> {
     let start: Start = case.input()?;
-    Ok(guide_speeds(&target(case)?.planning(), start.init_s[0], start.init_s[1]))
+    Ok(guide_speeds(
+        &target(case)?.planning(),
+        start.init_s[0],
+        start.init_s[1],
+    ))
 }
 
 pub(super) fn guide(case: &LatticeCase) -> Result<(), String> {
@@ -31,7 +36,12 @@ pub(super) fn guide(case: &LatticeCase) -> Result<(), String> {
     if case.fails() {
         return same("sound", &true, &got.iter().all(|v| v.is_finite() && *v >= 0.0));
     }
-    all_near("guide", &case.expected["guide_velocity"], &json!(got.to_vec()), TOLERANCE)
+    all_near(
+        "guide",
+        &case.expected["guide_velocity"],
+        &json!(got.to_vec()),
+        TOLERANCE,
+    )
 }
 
 #[derive(Deserialize)]
@@ -52,14 +62,28 @@ pub(super) fn braking(case: &LatticeCase) -> Result<(), String> {
         braking: input.d_comfort,
         duration: input.max_time,
     };
-    let profile = braking_profile((input.s_curr, input.s_target), (input.v_curr, input.v_target), with);
+    let profile = braking_profile(
+        (input.s_curr, input.s_target),
+        (input.v_curr, input.v_target),
+        with,
+    );
     let profile = profile.map_err(|error| error.to_string())?;
     if case.is_defect() {
         return same("sound", &true, &profile.knots().flatten().all(f64::is_finite));
     }
     let segments: Vec<(f64, f64)> = profile.segments().collect();
-    all_near("segments", &case.expected["segments"], &json!(segments), TOLERANCE)?;
-    near("length", &case.expected["param_length"], profile.length(), TOLERANCE)?;
+    all_near(
+        "segments",
+        &case.expected["segments"],
+        &json!(segments),
+        TOLERANCE,
+    )?;
+    near(
+        "length",
+        &case.expected["param_length"],
+        profile.length(),
+        TOLERANCE,
+    )?;
     for (k, key) in ["knot_t", "knot_s", "knot_v"].into_iter().enumerate() {
         let knots: Vec<f64> = profile.knots().map(|knot| knot[k]).collect();
         all_near(key, &case.expected[key], &json!(knots), TOLERANCE)?;
@@ -87,16 +111,26 @@ fn curves(case: &LatticeCase, list: &str, start: [f64; 3]) -> Result<Vec<Curve>,
 
 pub(super) fn costs(case: &LatticeCase) -> Result<(), String> {
     let start: Start = case.input()?;
-    let rows: Vec<[f64; 2]> = Vec::deserialize(&case.input["reference_line_s_kappa"]).map_err(|e| e.to_string())?;
+    let rows: Vec<[f64; 2]> =
+        Vec::deserialize(&case.input["reference_line_s_kappa"]).map_err(|e| e.to_string())?;
     let line = scene::line(&rows, scene::bends)?;
     let (blocked, guide) = (case.input::<Blocked>()?.blocking_intervals, guide_of(case)?);
-    all_near("guide", &case.expected["guide_velocity"], &json!(guide.to_vec()), TOLERANCE)?;
+    all_near(
+        "guide",
+        &case.expected["guide_velocity"],
+        &json!(guide.to_vec()),
+        TOLERANCE,
+    )?;
     let longitudinal = curves(case, "lon", start.init_s)?;
-    let laterals: Vec<LateralProfile> =
-        curves(case, "lat", start.init_d)?.into_iter().map(LateralProfile::new).collect();
+    let laterals: Vec<LateralProfile> = curves(case, "lat", start.init_d)?
+        .into_iter()
+        .map(LateralProfile::new)
+        .collect();
     let sampled: Vec<Sampled> = longitudinal.iter().map(Sampled::new).collect();
-    let costs: Vec<LongitudinalCosts> =
-        sampled.iter().map(|curve| LongitudinalCosts::new(curve, &guide, &blocked, &line)).collect();
+    let costs: Vec<LongitudinalCosts> = sampled
+        .iter()
+        .map(|curve| LongitudinalCosts::new(curve, &guide, &blocked, &line))
+        .collect();
     for (k, wanted) in case.expected["lon"].as_array().into_iter().flatten().enumerate() {
         let (curve, got) = (&longitudinal[k], &costs[k]);
         near("objective", &wanted["objective"], got.objective, COSTS)?;
@@ -104,11 +138,24 @@ pub(super) fn costs(case: &LatticeCase) -> Result<(), String> {
         near("collision", &wanted["collision"], got.collision, COSTS)?;
         near("centripetal", &wanted["centripetal"], got.centripetal, COSTS)?;
         let stop_s = target(case)?.stop_point;
-        same("passes_stop_filter", &wanted["passes_stop_filter"], &json!(keeps_stop(curve, stop_s)))?;
-        same("passes_1d_check", &wanted["passes_1d_check"], &json!(keeps_longitudinal_limits(curve)))?;
+        same(
+            "passes_stop_filter",
+            &wanted["passes_stop_filter"],
+            &json!(keeps_stop(curve, stop_s)),
+        )?;
+        same(
+            "passes_1d_check",
+            &wanted["passes_1d_check"],
+            &json!(keeps_longitudinal_limits(curve)),
+        )?;
     }
     for wanted in case.expected["pairs"].as_array().into_iter().flatten() {
-        let place = |key: &str| wanted[key].as_u64().and_then(|k| usize::try_from(k).ok()).unwrap_or(usize::MAX);
+        let place = |key: &str| {
+            wanted[key]
+                .as_u64()
+                .and_then(|k| usize::try_from(k).ok())
+                .unwrap_or(usize::MAX)
+        };
         let (lon, lat) = (place("lon"), place("lat"));
         let comfort = lateral_comfort(&sampled[lon], &laterals[lat].curve);
         near("lat_comfort", &wanted["lat_comfort"], comfort, COSTS)?;
@@ -140,24 +187,55 @@ pub(super) fn run(case: &LatticeCase) -> Result<(), String> {
         blocked: &blocked,
         line: &line as &LineTable,
     };
-    let evaluator = Evaluator::new(bundle.iter().map(|curve| &curve.curve), &laterals, &around, Weights::default());
+    let evaluator = Evaluator::new(
+        bundle.iter().map(|curve| &curve.curve),
+        &laterals,
+        &around,
+        Weights::default(),
+    );
     let survivors: Vec<usize> = evaluator.survivors().collect();
-    same("survivors", &case.expected["surviving_lon_indices"], &json!(survivors))?;
-    same("num_pairs", &case.expected["num_pairs"], &json!(evaluator.pairs()))?;
+    same(
+        "survivors",
+        &case.expected["surviving_lon_indices"],
+        &json!(survivors),
+    )?;
+    same(
+        "num_pairs",
+        &case.expected["num_pairs"],
+        &json!(evaluator.pairs()),
+    )?;
     let cheapest: Vec<Pair> = evaluator.collect();
     in_order(&cheapest)?;
-    for (k, wanted) in case.expected["cheapest_10"].as_array().into_iter().flatten().enumerate() {
+    for (k, wanted) in case.expected["cheapest_10"]
+        .as_array()
+        .into_iter()
+        .flatten()
+        .enumerate()
+    {
         let cost = number(&wanted["cost"]).unwrap_or(f64::NAN);
-        near(&format!("cheapest_10[{k}]"), &wanted["cost"], cheapest[k].cost, COSTS)?;
+        near(
+            &format!("cheapest_10[{k}]"),
+            &wanted["cost"],
+            cheapest[k].cost,
+            COSTS,
+        )?;
         let is_it = |pair: &Pair| {
             wanted["lon_index"] == json!(pair.longitudinal) && wanted["lat_index"] == json!(pair.lateral)
         };
         let found = cheapest.iter().find(|pair| is_it(pair));
-        same("cost of the pair", &true, &found.is_some_and(|pair| agrees(cost, pair.cost, COSTS)))?;
+        same(
+            "cost of the pair",
+            &true,
+            &found.is_some_and(|pair| agrees(cost, pair.cost, COSTS)),
+        )?;
     }
     Ok(())
 }
 
 fn in_order(pairs: &[Pair]) -> Result<(), String> {
-    same("in order", &true, &pairs.windows(2).all(|pair| pair[0].cost <= pair[1].cost))
+    same(
+        "in order",
+        &true,
+        &pairs.windows(2).all(|pair| pair[0].cost <= pair[1].cost),
+    )
 }

@@ -39,7 +39,9 @@ impl Ends {
     }
 
     pub(super) fn curve(&self) -> Result<Curve, String> {
-        self.polynomial().map(Curve::from).ok_or_else(|| "a curve without a length".to_owned())
+        self.polynomial()
+            .map(Curve::from)
+            .ok_or_else(|| "a curve without a length".to_owned())
     }
 }
 
@@ -89,15 +91,19 @@ pub(super) fn polynomial(case: &LatticeCase) -> Result<(), String> {
     let coefficients = json!(polynomial.coefficients()[..count]);
     let tolerance = if short { SHORT_COEFFICIENTS } else { TOLERANCE };
     all_near("coef", &case.expected["coef"], &coefficients, tolerance)?;
-    values(case, |order, p| polynomial.derivative(order, p), |p| {
-        if short && !(0.0..=length).contains(&p) {
-            SHORT_VALUES
-        } else if short {
-            SHORT_COEFFICIENTS
-        } else {
-            TOLERANCE
-        }
-    })
+    values(
+        case,
+        |order, p| polynomial.derivative(order, p),
+        |p| {
+            if short && !(0.0..=length).contains(&p) {
+                SHORT_VALUES
+            } else if short {
+                SHORT_COEFFICIENTS
+            } else {
+                TOLERANCE
+            }
+        },
+    )
 }
 
 /// Compares the rows of values: columns are orders, unless the case names them.
@@ -109,12 +115,19 @@ fn values(
     let Some(rows) = case.expected["values"].as_array() else {
         return Ok(());
     };
-    let parameters: Vec<f64> = Vec::deserialize(&case.input["eval_params"]).map_err(|error| error.to_string())?;
-    let orders: Option<Vec<usize>> = Option::deserialize(&case.input["orders"]).map_err(|error| error.to_string())?;
+    let parameters: Vec<f64> =
+        Vec::deserialize(&case.input["eval_params"]).map_err(|error| error.to_string())?;
+    let orders: Option<Vec<usize>> =
+        Option::deserialize(&case.input["orders"]).map_err(|error| error.to_string())?;
     for (row, p) in rows.iter().zip(parameters) {
         for (column, wanted) in row.as_array().into_iter().flatten().enumerate() {
             let order = orders.as_ref().map_or(column, |orders| orders[column]);
-            near(&format!("order {order} at {p}"), wanted, at(order, p), tolerance(p))?;
+            near(
+                &format!("order {order} at {p}"),
+                wanted,
+                at(order, p),
+                tolerance(p),
+            )?;
         }
     }
     Ok(())
@@ -127,7 +140,12 @@ fn column(values: [f64; 4], order: usize) -> f64 {
 pub(super) fn wrapped(case: &LatticeCase) -> Result<(), String> {
     let ends: Ends = case.input()?;
     let (curve, inner) = (ends.curve()?, ends.polynomial());
-    near("length", &case.expected["param_length"], curve.length(), TOLERANCE)?;
+    near(
+        "length",
+        &case.expected["param_length"],
+        curve.length(),
+        TOLERANCE,
+    )?;
     let at = |order: usize, p: f64| match inner {
         Some(inner) if order > 3 && p < curve.length() => inner.derivative(order, p),
         _ => column(curve.at(p), order),
@@ -140,14 +158,24 @@ pub(super) fn deceleration(case: &LatticeCase) -> Result<(), String> {
     let Some(curve) = ConstantDeceleration::new(value("s0"), value("v0"), value("a")) else {
         return same("rejected", &case.fails(), &true);
     };
-    near("length", &case.expected["param_length"], curve.length(), TOLERANCE)?;
+    near(
+        "length",
+        &case.expected["param_length"],
+        curve.length(),
+        TOLERANCE,
+    )?;
     values(case, |order, p| column(curve.at(p), order), |_| TOLERANCE)
 }
 
 pub(super) fn standing(case: &LatticeCase) -> Result<(), String> {
     let value = |key: &str| case.input[key].as_f64().unwrap_or(f64::NAN);
     let curve = Polynomial::constant(value("position"), value("duration"));
-    near("length", &case.expected["param_length"], curve.length(), TOLERANCE)?;
+    near(
+        "length",
+        &case.expected["param_length"],
+        curve.length(),
+        TOLERANCE,
+    )?;
     values(case, |order, p| curve.derivative(order, p), |_| TOLERANCE)
 }
 
@@ -160,9 +188,17 @@ pub(super) fn constant_jerk(case: &LatticeCase) -> Result<(), String> {
     if case.fails() {
         return Err("accepted, but it has no length".to_owned());
     }
-    near("length", &case.expected["param_length"], curve.length(), TOLERANCE)?;
+    near(
+        "length",
+        &case.expected["param_length"],
+        curve.length(),
+        TOLERANCE,
+    )?;
     let end = curve.at(curve.length());
-    for (key, got) in ["end_position", "end_velocity", "end_acceleration"].into_iter().zip(end) {
+    for (key, got) in ["end_position", "end_velocity", "end_acceleration"]
+        .into_iter()
+        .zip(end)
+    {
         near(key, &case.expected[key], got, TOLERANCE)?;
     }
     values(case, |order, p| curve.derivative(order, p), |_| TOLERANCE)
@@ -179,7 +215,12 @@ struct Jerks {
 pub(super) fn piecewise_jerk(case: &LatticeCase) -> Result<(), String> {
     let input: Jerks = case.input()?;
     let curve = Piecewise::of_jerks([input.p0, input.v0, input.a0], &input.segments).ok_or("rejected")?;
-    near("length", &case.expected["param_length"], curve.length(), TOLERANCE)?;
+    near(
+        "length",
+        &case.expected["param_length"],
+        curve.length(),
+        TOLERANCE,
+    )?;
     values(case, |order, p| curve.derivative(order, p), |_| TOLERANCE)
 }
 
@@ -191,10 +232,22 @@ struct Quartics {
 pub(super) fn piecewise_quartics(case: &LatticeCase) -> Result<(), String> {
     let input: Quartics = case.input()?;
     let pieces: Option<Vec<Polynomial>> = input.segments.iter().map(Ends::polynomial).collect();
-    let curve = pieces.and_then(|pieces| Piecewise::new(&pieces)).ok_or("rejected")?;
+    let curve = pieces
+        .and_then(|pieces| Piecewise::new(&pieces))
+        .ok_or("rejected")?;
     let ends: Vec<f64> = curve.ends().collect();
-    all_near("accumulated", &case.expected["accumulated"], &json!(ends), TOLERANCE)?;
-    near("length", &case.expected["param_length"], curve.length(), TOLERANCE)?;
+    all_near(
+        "accumulated",
+        &case.expected["accumulated"],
+        &json!(ends),
+        TOLERANCE,
+    )?;
+    near(
+        "length",
+        &case.expected["param_length"],
+        curve.length(),
+        TOLERANCE,
+    )?;
     values(case, |order, p| curve.derivative(order, p), |_| TOLERANCE)
 }
 
@@ -210,7 +263,10 @@ struct Accelerations {
 impl Accelerations {
     fn profile(&self) -> Option<PiecewiseAcceleration> {
         let mut profile = PiecewiseAcceleration::from(self.s0, self.v0);
-        self.segments.iter().try_for_each(|(a, duration)| profile.push(*a, *duration)).ok()?;
+        self.segments
+            .iter()
+            .try_for_each(|(a, duration)| profile.push(*a, *duration))
+            .ok()?;
         Some(profile)
     }
 }
@@ -226,13 +282,25 @@ pub(super) fn piecewise_acceleration(case: &LatticeCase) -> Result<(), String> {
     if case.fails() {
         return Err("accepted, but it goes back or is asked beyond its end".to_owned());
     }
-    near("length", &case.expected["param_length"], profile.length(), TOLERANCE)?;
+    near(
+        "length",
+        &case.expected["param_length"],
+        profile.length(),
+        TOLERANCE,
+    )?;
     for (k, key) in ["knot_t", "knot_s", "knot_v"].into_iter().enumerate() {
         let knots: Vec<f64> = profile.knots().map(|knot| knot[k]).collect();
         all_near(key, &case.expected[key], &json!(knots), TOLERANCE)?;
     }
-    let accelerations: Vec<f64> = std::iter::once(0.0).chain(input.segments.iter().map(|(a, _)| *a)).collect();
-    all_near("knot_a", &case.expected["knot_a"], &json!(accelerations), TOLERANCE)?;
+    let accelerations: Vec<f64> = std::iter::once(0.0)
+        .chain(input.segments.iter().map(|(a, _)| *a))
+        .collect();
+    all_near(
+        "knot_a",
+        &case.expected["knot_a"],
+        &json!(accelerations),
+        TOLERANCE,
+    )?;
     let at = |order: usize, t: f64| {
         let state = profile.at(t).unwrap_or([f64::NAN; 3]);
         state.get(order).copied().unwrap_or(0.0)
@@ -245,5 +313,10 @@ pub(super) fn piecewise_order(case: &LatticeCase) -> Result<(), String> {
     let profile = input.profile().ok_or("rejected")?;
     let at = |t: &f64| profile.at(*t).map_or(f64::NAN, |[_, _, a]| a);
     let got: Vec<f64> = input.eval_params.iter().map(at).collect();
-    all_near("acceleration", &case.expected["acceleration"], &json!(got), TOLERANCE)
+    all_near(
+        "acceleration",
+        &case.expected["acceleration"],
+        &json!(got),
+        TOLERANCE,
+    )
 }

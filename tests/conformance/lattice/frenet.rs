@@ -105,12 +105,20 @@ pub(super) fn to_sl(case: &LatticeCase) -> Result<(), String> {
     let input: Input = case.input()?;
     let foot = input.foot();
     near("s", &case.expected["s"], foot.s, TOLERANCE)?;
-    near("d", &case.expected["d"], foot.offset(Pose::new(input.x, input.y, 0.0)), TOLERANCE)
+    near(
+        "d",
+        &case.expected["d"],
+        foot.offset(Pose::new(input.x, input.y, 0.0)),
+        TOLERANCE,
+    )
 }
 
 pub(super) fn to_plane(case: &LatticeCase) -> Result<(), String> {
     let input: Input = case.input()?;
-    let motion = FrenetMotion { s: input.s, l: input.d };
+    let motion = FrenetMotion {
+        s: input.s,
+        l: input.d,
+    };
     let Some(found) = answered(case, input.foot().to_plane(&motion))? else {
         return Ok(());
     };
@@ -137,7 +145,11 @@ fn compare(case: &LatticeCase, found: &PlaneMotion) -> Result<(), String> {
 }
 
 pub(super) fn same_direction(wanted: f64, got: f64, tolerance: f64) -> bool {
-    agrees(0.0, corridor_decider::geometry::angle::difference(got, wanted), tolerance)
+    agrees(
+        0.0,
+        corridor_decider::geometry::angle::difference(got, wanted),
+        tolerance,
+    )
 }
 
 /// Parts of the conversion to the plane, asked for one by one.

@@ -142,7 +142,9 @@ fn agrees(wanted: f64, got: f64, tolerance: f64) -> bool {
 /// Compares one expected number.
 fn near(place: &str, wanted: &Value, got: f64, tolerance: f64) -> Result<(), String> {
     match number(wanted) {
-        Some(wanted) if !agrees(wanted, got, tolerance) => Err(format!("{place}: expected {wanted}, got {got}")),
+        Some(wanted) if !agrees(wanted, got, tolerance) => {
+            Err(format!("{place}: expected {wanted}, got {got}"))
+        }
         None if !wanted.is_null() => Err(format!("{place}: expected {wanted}, which is no number")),
         _ => Ok(()),
     }
@@ -154,10 +156,15 @@ fn all_near(place: &str, wanted: &Value, got: &Value, tolerance: f64) -> Result<
         (Value::Null, _) => Ok(()),
         (Value::Array(wanted), Value::Array(got)) => {
             if wanted.len() != got.len() {
-                return Err(format!("{place}: expected {} entries, got {}", wanted.len(), got.len()));
+                return Err(format!(
+                    "{place}: expected {} entries, got {}",
+                    wanted.len(),
+                    got.len()
+                ));
             }
             let mut pairs = wanted.iter().zip(got).enumerate();
-            pairs.try_for_each(|(k, (wanted, got))| all_near(&format!("{place}[{k}]"), wanted, got, tolerance))
+            pairs
+                .try_for_each(|(k, (wanted, got))| all_near(&format!("{place}[{k}]"), wanted, got, tolerance))
         }
         (_, Value::Number(_)) => near(place, wanted, got.as_f64().unwrap_or(f64::NAN), tolerance),
         _ => Err(format!("{place}: expected {wanted}, got {got}")),

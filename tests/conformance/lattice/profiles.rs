@@ -17,7 +17,11 @@ const STEP: f64 = 0.1;
 type Row = [f64; 5];
 
 fn rows(profile: &SpeedData) -> Vec<Row> {
-    profile.points.iter().map(|point| [point.s, point.t, point.v, point.a, point.da]).collect()
+    profile
+        .points
+        .iter()
+        .map(|point| [point.s, point.t, point.v, point.a, point.da])
+        .collect()
 }
 
 fn wanted(case: &LatticeCase) -> Result<Vec<Row>, String> {
@@ -45,7 +49,8 @@ pub(super) fn stop(case: &LatticeCase) -> Result<(), String> {
 }
 
 pub(super) fn fill(case: &LatticeCase) -> Result<(), String> {
-    let given: Vec<Row> = Vec::deserialize(&case.input["points_s_t_v_a_da"]).map_err(|error| error.to_string())?;
+    let given: Vec<Row> =
+        Vec::deserialize(&case.input["points_s_t_v_a_da"]).map_err(|error| error.to_string())?;
     let point = |[s, t, v, a, da]: &Row| SpeedPoint {
         t: *t,
         s: *s,
@@ -54,7 +59,12 @@ pub(super) fn fill(case: &LatticeCase) -> Result<(), String> {
         da: *da,
     };
     let got = rows(&filled(given.iter().map(point).collect()));
-    all_near("points", &case.expected["points_s_t_v_a_da"], &json!(got), TOLERANCE)
+    all_near(
+        "points",
+        &case.expected["points_s_t_v_a_da"],
+        &json!(got),
+        TOLERANCE,
+    )
 }
 
 /// Fastest that the original creeps, m/s.

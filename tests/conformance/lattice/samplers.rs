@@ -30,7 +30,8 @@ struct Region {
 pub(super) fn region(case: &LatticeCase) -> Result<(), String> {
     let input: Region = case.input()?;
     let region = FeasibleRegion::new(input.init_s[0], input.init_s[1]);
-    let over = |values: &[f64], of: &dyn Fn(f64) -> f64| values.iter().map(|at| of(*at)).collect::<Vec<f64>>();
+    let over =
+        |values: &[f64], of: &dyn Fn(f64) -> f64| values.iter().map(|at| of(*at)).collect::<Vec<f64>>();
     let lists = [
         ("s_upper", over(&input.t, &|t| region.s_upper(t))),
         ("s_lower", over(&input.t, &|t| region.s_lower(t))),
@@ -49,20 +50,37 @@ pub(super) fn region(case: &LatticeCase) -> Result<(), String> {
 }
 
 pub(super) fn lateral(case: &LatticeCase) -> Result<(), String> {
-    all_near("ends", &case.expected["end_conditions"], &rows(&lattice::lateral()), TOLERANCE)
+    all_near(
+        "ends",
+        &case.expected["end_conditions"],
+        &rows(&lattice::lateral()),
+        TOLERANCE,
+    )
 }
 
 pub(super) fn cruise(case: &LatticeCase) -> Result<(), String> {
     let start: Start = case.input()?;
     let speed = case.input["cruise_speed"].as_f64().unwrap_or(f64::NAN);
     let region = FeasibleRegion::new(start.init_s[0], start.init_s[1]);
-    all_near("ends", &case.expected["end_conditions"], &rows(&lattice::cruise(&region, speed)), TOLERANCE)
+    all_near(
+        "ends",
+        &case.expected["end_conditions"],
+        &rows(&lattice::cruise(&region, speed)),
+        TOLERANCE,
+    )
 }
 
 pub(super) fn stop(case: &LatticeCase) -> Result<(), String> {
     let start: Start = case.input()?;
-    let ends = case.input["stop_point"].as_f64().map(|stop_s| lattice::stop(start.init_s[0], stop_s));
-    all_near("ends", &case.expected["end_conditions"], &rows(&ends.unwrap_or_default()), TOLERANCE)
+    let ends = case.input["stop_point"]
+        .as_f64()
+        .map(|stop_s| lattice::stop(start.init_s[0], stop_s));
+    all_near(
+        "ends",
+        &case.expected["end_conditions"],
+        &rows(&ends.unwrap_or_default()),
+        TOLERANCE,
+    )
 }
 
 /// What path-time samples come from.
@@ -95,7 +113,10 @@ struct Directions {
 }
 
 pub(super) fn path_time(case: &LatticeCase) -> Result<(), String> {
-    let line = scene::line(&case.input::<Directions>()?.reference_line_s_theta, scene::directions)?;
+    let line = scene::line(
+        &case.input::<Directions>()?.reference_line_s_theta,
+        scene::directions,
+    )?;
     let ends = case.input::<PathTime>()?.ends(&line);
     all_near("ends", &case.expected["end_conditions"], &rows(&ends), TOLERANCE)
 }
@@ -107,8 +128,15 @@ pub(super) fn bundle(case: &LatticeCase, line: &LineTable) -> Result<Vec<Longitu
     let region = FeasibleRegion::new(start.init_s[0], start.init_s[1]);
     let cruise = lattice::cruise(&region, target.cruise_speed);
     let beside = case.input::<PathTime>()?.ends(line);
-    let stop = target.stop_point.map(|stop_s| lattice::stop(start.init_s[0], stop_s));
-    Ok(longitudinal_bundle(start.init_s, &cruise, &beside, &stop.unwrap_or_default()))
+    let stop = target
+        .stop_point
+        .map(|stop_s| lattice::stop(start.init_s[0], stop_s));
+    Ok(longitudinal_bundle(
+        start.init_s,
+        &cruise,
+        &beside,
+        &stop.unwrap_or_default(),
+    ))
 }
 
 #[derive(Deserialize)]
@@ -121,16 +149,28 @@ struct Wanted {
 }
 
 pub(super) fn bundles(case: &LatticeCase) -> Result<(), String> {
-    let line = scene::line(&case.input::<Directions>()?.reference_line_s_theta, scene::directions)?;
+    let line = scene::line(
+        &case.input::<Directions>()?.reference_line_s_theta,
+        scene::directions,
+    )?;
     let longitudinal = bundle(case, &line)?;
     let wanted: Vec<Wanted> = Vec::deserialize(&case.expected["lon"]).map_err(|error| error.to_string())?;
-    same("number of longitudinal curves", &wanted.len(), &longitudinal.len())?;
+    same(
+        "number of longitudinal curves",
+        &wanted.len(),
+        &longitudinal.len(),
+    )?;
     for (k, (wanted, got)) in wanted.iter().zip(&longitudinal).enumerate() {
         compare(wanted, got).map_err(|mismatch| format!("lon[{k}]: {mismatch}"))?;
     }
     let laterals = lateral_bundle(&case.input::<Start>()?.motion());
     let laterals: Vec<_> = laterals.iter().map(|curve| *curve.coefficients()).collect();
-    all_near("lat_coef", &case.expected["lat_coef"], &json!(laterals), TOLERANCE)
+    all_near(
+        "lat_coef",
+        &case.expected["lat_coef"],
+        &json!(laterals),
+        TOLERANCE,
+    )
 }
 
 fn compare(wanted: &Wanted, got: &Longitudinal) -> Result<(), String> {
@@ -140,8 +180,18 @@ fn compare(wanted: &Wanted, got: &Longitudinal) -> Result<(), String> {
         Kind::Stop => "stop",
     };
     same("kind", &wanted.kind.as_str(), &kind)?;
-    near("target_position", &wanted.target_position, got.end.state[0], TOLERANCE)?;
-    near("target_velocity", &wanted.target_velocity, got.end.state[1], TOLERANCE)?;
+    near(
+        "target_position",
+        &wanted.target_position,
+        got.end.state[0],
+        TOLERANCE,
+    )?;
+    near(
+        "target_velocity",
+        &wanted.target_velocity,
+        got.end.state[1],
+        TOLERANCE,
+    )?;
     near("target_time", &wanted.target_time, got.end.length, TOLERANCE)?;
     let is_short = got.end.length < 0.0101;
     let tolerance = if is_short { SHORT_COEFFICIENTS } else { TOLERANCE };

@@ -8,7 +8,10 @@ use corridor_decider::st_graph::StPair;
 use serde::Deserialize;
 
 /// A line from rows of `s`, then what the columns hold; all else is 0.
-pub(super) fn line<const N: usize>(rows: &[[f64; N]], foot: fn(&[f64; N]) -> Foot) -> Result<LineTable, String> {
+pub(super) fn line<const N: usize>(
+    rows: &[[f64; N]],
+    foot: fn(&[f64; N]) -> Foot,
+) -> Result<LineTable, String> {
     LineTable::polyline(rows.iter().map(foot).collect()).ok_or_else(|| "a line without a length".to_owned())
 }
 
@@ -129,7 +132,9 @@ pub(super) fn motions(movers: &[Mover], name: &str) -> Vec<PredictedMotion> {
         theta: *theta,
     };
     let mover = movers.iter().find(|mover| mover.id == name);
-    mover.map(|mover| mover.trajectory_t_v_theta.iter().map(motion).collect()).unwrap_or_default()
+    mover
+        .map(|mover| mover.trajectory_t_v_theta.iter().map(motion).collect())
+        .unwrap_or_default()
 }
 
 /// An entry of the path-time graph by its corners `(t, s)`.
