@@ -25,8 +25,7 @@ pub fn projected_speed(motions: &[PredictedMotion], heading: f64, t: f64) -> f64
     }
     let place = motions.partition_point(|motion| motion.t < t);
     let motion = motions[place.min(motions.len() - 1)];
-    let (sin, cos) = angle::sin_cos(motion.theta - heading);
-    let _ = sin;
+    let (_, cos) = angle::sin_cos(motion.theta - heading);
     motion.v * cos
 }
 

@@ -91,7 +91,7 @@ impl LatticePlanner {
             .filter_map(|place| self.plan_line(frame, place, place == preferred, &start));
         let best = lines.min_by(|a, b| a.cost.total_cmp(&b.cost));
         let decision = match best {
-            Some(best) => conclude(best, &start),
+            Some(best) => conclude(&best, &start),
             None => Decision::without_path(
                 Outcome::EmergencyStop,
                 FallbackCause::NoSampledTrajectory,
@@ -119,7 +119,7 @@ impl LatticePlanner {
         let line = &*frame.lines[place].line;
         let initial = initial_state(line, start)?;
         let [s, v, _] = initial.s;
-        let target = self.target(frame, line, s, v);
+        let target = target(frame, line, s, v);
         let reach = (v.max(target.cruise_speed) + self.vehicle.max_acceleration) * lattice::HORIZON + BEYOND;
         let table = LineTable::sampled(line, s - BEHIND, s + reach)?;
         let lane_width = |s| line.lane_width(s);
@@ -166,20 +166,6 @@ impl LatticePlanner {
             _ => config.cost_non_priority_reference_line,
         }
     }
-
-    /// How fast the car may drive along a line, and where it has to stop.
-    fn target(&self, frame: &Frame, line: &ReferenceLine, s: f64, v: f64) -> PlanningTarget {
-        let end = line.length() - LINE_END;
-        let place = match frame.command {
-            Command::PullOver(place) => line.to_frenet(place).s,
-            Command::EmergencyPullOver => s + v * v / (2.0 * BEND_ACCELERATION),
-            Command::Cruise | Command::ChangeLane(_) => end,
-        };
-        PlanningTarget {
-            cruise_speed: cruise_speed(line, s).min(frame.cruise_speed),
-            stop_s: Some(place.min(end)),
-        }
-    }
 }
 
 /// The own lane, as a bound would be labelled.
@@ -187,6 +173,20 @@ const OWN_LANE: Label = Label::Regular {
     borrow: Borrow::None,
     lane: LaneType::Own,
 };
+
+/// How fast the car may drive along a line, and where it has to stop.
+fn target(frame: &Frame, line: &ReferenceLine, s: f64, v: f64) -> PlanningTarget {
+    let end = line.length() - LINE_END;
+    let place = match frame.command {
+        Command::PullOver(place) => line.to_frenet(place).s,
+        Command::EmergencyPullOver => s + v * v / (2.0 * BEND_ACCELERATION),
+        Command::Cruise | Command::ChangeLane(_) => end,
+    };
+    PlanningTarget {
+        cruise_speed: cruise_speed(line, s).min(frame.cruise_speed),
+        stop_s: Some(place.min(end)),
+    }
+}
 
 /// The motion along a line at its exact foot.
 fn initial_state(line: &ReferenceLine, start: &StartPoint) -> Option<FrenetMotion> {
@@ -261,7 +261,7 @@ fn stop(lattice: &Lattice, planned: &Planned, frame: &Frame, target: &PlanningTa
 }
 
 /// From what came of the cheapest line to a decision.
-fn conclude(best: OfLine, start: &StartPoint) -> Decision {
+fn conclude(best: &OfLine, start: &StartPoint) -> Decision {
     let (outcome, speed) = match best.planned.outcome {
         lattice::Outcome::Found(_) => (Outcome::Normal, None),
         lattice::Outcome::Backup(_) => (Outcome::SpeedFallback, Some(SpeedRung::LatticeBackup)),
