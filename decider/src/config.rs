@@ -1,6 +1,7 @@
 //! Every knob of the decider. Names in `path_bounds` are the original's.
 
 use crate::lane_follow_map::{LaneFollowConfig, LaneFollowQuirks};
+use crate::lattice::LatticeConfig;
 use crate::planner::{LANE_FOLLOW, TaskName};
 use crate::quirks::Quirks;
 use crate::tasks::lane_borrow::LaneBorrowConfig;
@@ -11,10 +12,25 @@ use crate::tasks::piecewise_jerk_speed::SpeedConfig;
 use crate::tasks::speed_heuristic::SpeedHeuristicConfig;
 use serde::{Deserialize, Serialize};
 
+/// Which planner decides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PlannerKind {
+    /// Path bounds, a path inside one, a speed along it.
+    #[default]
+    LaneFollow,
+    /// Sampled motions along and across the line.
+    Lattice,
+}
+
 /// Settings of all tasks.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Config {
+    /// Which planner decides.
+    pub planner: PlannerKind,
+    /// The lattice planner.
+    pub lattice: LatticeConfig,
     /// The tasks of the stage, in the order in which they run.
     pub tasks: Vec<TaskName>,
     /// When lanes are changed.
@@ -40,6 +56,8 @@ pub struct Config {
 impl Default for Config {
     fn default() -> Self {
         Self {
+            planner: PlannerKind::default(),
+            lattice: LatticeConfig::default(),
             tasks: LANE_FOLLOW.to_vec(),
             lane_change: LaneChangeConfig::default(),
             path_bounds: PathBoundsConfig::default(),

@@ -16,6 +16,7 @@ pub mod frame;
 pub mod geometry;
 pub mod hd_map;
 pub mod lane_follow_map;
+pub mod lattice;
 pub mod piecewise_jerk;
 pub mod planner;
 pub mod quirks;

@@ -3,17 +3,54 @@
 
 use crate::faults::{self, Failure, Fault, Part, SUDDEN, mirrored, not_a_number};
 use crate::settings::Settings;
+use corridor_decider::config::PlannerKind;
 use corridor_decider::context::Context;
 use corridor_decider::decision::Decision;
 use corridor_decider::frame::Frame;
-use corridor_decider::planner::Planner;
+use corridor_decider::planner::{self, LatticePlanner, Planner};
 use corridor_scenarios::Scenario;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+/// One of the planners.
+enum AnyPlanner {
+    LaneFollow(Planner),
+    Lattice(LatticePlanner),
+}
+
+impl AnyPlanner {
+    fn new(scenario: &Scenario, settings: &Settings) -> Self {
+        let (config, vehicle) = (settings.decider.clone(), scenario.vehicle);
+        match config.planner {
+            PlannerKind::LaneFollow => Self::LaneFollow(Planner::new(config, vehicle)),
+            PlannerKind::Lattice => Self::Lattice(LatticePlanner::new(config, vehicle)),
+        }
+    }
+
+    fn decide(&self, frame: &Frame, context: &mut Context) -> Decision {
+        match self {
+            Self::LaneFollow(planner) => planner.decide(frame, context),
+            Self::Lattice(planner) => planner.decide(frame, context),
+        }
+    }
+
+    /// The same with parts that fail. The lattice planner has none of them.
+    fn decide_with_failures(
+        &self,
+        frame: &Frame,
+        context: &mut Context,
+        fails: &dyn Fn(planner::Part) -> bool,
+    ) -> Decision {
+        match self {
+            Self::LaneFollow(planner) => planner.decide_with_failures(frame, context, fails),
+            Self::Lattice(planner) => planner.decide(frame, context),
+        }
+    }
+}
+
 /// A planner and its memory.
 pub(crate) struct Decider {
-    planner: Planner,
+    planner: AnyPlanner,
     context: Context,
     fault: Fault,
     failures: Vec<Failure>,
@@ -22,7 +59,7 @@ pub(crate) struct Decider {
 impl Decider {
     pub(crate) fn new(scenario: &Scenario, settings: &Settings) -> Self {
         Self {
-            planner: Planner::new(settings.decider.clone(), scenario.vehicle),
+            planner: AnyPlanner::new(scenario, settings),
             context: Context::default(),
             fault: settings.fault,
             failures: settings.failures.clone(),

@@ -1,5 +1,6 @@
 //! Reads files of cases and tells their kinds apart.
 
+use crate::lattice::{self, LatticeCase};
 use crate::map::MapCase;
 use crate::path_bounds::PathBoundsCase;
 use crate::qp::QpCase;
@@ -15,6 +16,8 @@ pub(crate) enum Case {
     Map(Box<MapCase>),
     /// A piecewise-jerk problem.
     Qp(Box<QpCase>),
+    /// A question to the lattice planner.
+    Lattice(Box<LatticeCase>),
     /// A question to one of the speed tasks.
     Speed(Box<SpeedCase>),
 }
@@ -26,6 +29,7 @@ impl Case {
             Self::Map(case) => &case.name,
             Self::Qp(case) => &case.name,
             Self::Speed(case) => &case.name,
+            Self::Lattice(case) => &case.name,
         }
     }
 }
@@ -46,7 +50,7 @@ pub(crate) enum CaseError {
     #[error(
         "{file}:{line}: unknown kind of case; known: path_bounds (`input.ref_line` and `input.status`), map (`map` \
          and `function`), a piecewise-jerk problem (`function` ends with `_qp` or `_qp_diagonal`), speed (a `function` of \
-         the speed tasks)"
+         the speed tasks), lattice (a `function` of the lattice planner)"
     )]
     UnknownKind { file: PathBuf, line: usize },
 }
@@ -109,6 +113,11 @@ fn parse(file: &Path, line: usize, text: &str) -> Result<Case, CaseError> {
     }
     if value["function"].as_str().is_some_and(speed::knows) {
         return Ok(Case::Speed(Box::new(
+            serde_json::from_value(value).map_err(malformed)?,
+        )));
+    }
+    if value["function"].as_str().is_some_and(lattice::knows) {
+        return Ok(Case::Lattice(Box::new(
             serde_json::from_value(value).map_err(malformed)?,
         )));
     }

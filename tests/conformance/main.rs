@@ -6,6 +6,7 @@
 #![allow(clippy::print_stdout, reason = "a program that prints its result")]
 
 mod cases;
+mod lattice;
 mod map;
 mod path_bounds;
 mod qp;
@@ -85,5 +86,6 @@ fn check(case: &Case, store: &mut MapStore) -> Result<(), String> {
         Case::Map(case) => map::check(case, store),
         Case::Qp(case) => qp::check(case),
         Case::Speed(case) => speed::check(case),
+        Case::Lattice(case) => lattice::check(case),
     }
 }

@@ -28,6 +28,8 @@ pub enum FallbackCause {
     Trajectory(Unfit),
     /// There was nothing to plan with.
     Context(ContextFailure),
+    /// No sampled trajectory may be driven (lattice planner).
+    NoSampledTrajectory,
 }
 
 /// Why a tick cannot be planned at all.
@@ -68,4 +70,8 @@ pub enum SpeedRung {
     Ramp,
     /// Constant braking.
     ConstantDeceleration,
+    /// The gentlest constant braking that touches nothing (lattice planner).
+    LatticeBackup,
+    /// The hardest braking, where all else touches something and this does, too (lattice planner).
+    LatticeLastResort,
 }

@@ -84,7 +84,7 @@ pub fn without_context(
 }
 
 /// The end of the chain: as hard as it can, the wheels as they are.
-pub(super) fn brake_on_arc(start: &StartPoint, vehicle: &VehicleParams) -> Vec<TrajectoryPoint> {
+pub(crate) fn brake_on_arc(start: &StartPoint, vehicle: &VehicleParams) -> Vec<TrajectoryPoint> {
     let limits = BrakingLimits::EMERGENCY.with_max_deceleration(vehicle.max_deceleration);
     let profile = braking_profile(start.v, start.a, limits);
     trajectory::on(&profile, |distance| {

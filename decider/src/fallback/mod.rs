@@ -13,9 +13,10 @@ mod speed_profile;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use blind::brake_on_arc;
 pub use blind::{context_failure, without_context};
 pub use braking::{BrakingLimits, braking_profile};
-pub use speed_profile::{constant_deceleration, extract, standstill};
+pub use speed_profile::{constant_deceleration, extract, filled, standstill};
 
 use crate::context::LastPath;
 use crate::decision::{Fallback, FallbackCause, Outcome, PathPoint, TrajectoryPoint};
@@ -105,7 +106,7 @@ pub fn along_line(
 fn emergency_stop(plan: &LinePlan, cause: FallbackCause) -> Driven {
     Driven {
         path: Vec::new(),
-        trajectory: blind::brake_on_arc(&plan.scene.start, plan.scene.vehicle),
+        trajectory: brake_on_arc(&plan.scene.start, plan.scene.vehicle),
         outcome: Outcome::EmergencyStop,
         fallback: Some(Fallback {
             cause,

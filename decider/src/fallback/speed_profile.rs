@@ -69,7 +69,7 @@ pub fn extract(s: &[f64], v: &[f64], a: &[f64], delta: f64) -> SpeedData {
 }
 
 /// Points with standstill where the last one is, up to the fallback time.
-pub(super) fn filled(mut points: Vec<SpeedPoint>) -> SpeedData {
+pub fn filled(mut points: Vec<SpeedPoint>) -> SpeedData {
     if let Some(last) = points.last().copied() {
         let mut t = last.t + FALLBACK_STEP;
         while last.t < FALLBACK_TIME && t < FALLBACK_TIME {

@@ -1,6 +1,6 @@
 //! Worked numbers of the specification, and what must hold of every profile that ends in a stop.
 
-use super::speed_profile::*;
+use super::speed_profile::{FALLBACK_STEP, FALLBACK_TIME, constant_deceleration, extract, standstill};
 use super::*;
 use crate::st_graph::SpeedData;
 use proptest::prelude::*;

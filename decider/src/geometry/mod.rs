@@ -5,11 +5,14 @@
 //! platform: transcendental functions come from `libm`.
 
 pub mod angle;
+pub mod frenet;
 mod polygon;
+mod polynomial;
 mod pose;
 mod quintic;
 
 pub use polygon::ConvexPolygon;
+pub use polynomial::Polynomial;
 pub use pose::Pose;
 pub use quintic::Quintic;
 

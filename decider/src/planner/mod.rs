@@ -1,12 +1,14 @@
 //! Planners: nothing but the order of the tasks.
 
 mod lane_follow;
+mod lattice;
 mod plan;
 mod report;
 mod stage;
 mod task;
 
 pub use lane_follow::Planner;
+pub use lattice::LatticePlanner;
 pub use plan::LinePlan;
 pub use stage::LANE_FOLLOW;
 pub use task::{Part, TaskError, TaskName};

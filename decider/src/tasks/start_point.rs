@@ -7,6 +7,7 @@
 use crate::context::LastTrajectory;
 use crate::decision::TrajectoryPoint;
 use crate::frame::Frame;
+use crate::geometry::frenet::{Foot, slopes};
 use crate::geometry::{Pose, Vec2, angle};
 use crate::reference_line::LineQuery;
 
@@ -132,12 +133,13 @@ impl LateralState {
         let reference = line.point(at.s);
         let turn = angle::difference(start.pose.theta, reference.theta)
             .clamp(-LARGEST_HEADING_ERROR, LARGEST_HEADING_ERROR);
-        let (sin, cos) = angle::sin_cos(turn);
-        let tan = sin / cos;
-        let stretch = 1.0 - reference.kappa * at.l;
-        let dl = stretch * tan;
-        let ddl = -reference.kappa * dl * tan
-            + stretch / (cos * cos) * (start.kappa * stretch / cos - reference.kappa);
+        let foot = Foot {
+            s: at.s,
+            pose: Pose::new(reference.x, reference.y, reference.theta),
+            kappa: reference.kappa,
+            dkappa: 0.0,
+        };
+        let [dl, ddl] = slopes(&foot, at.l, turn, start.kappa);
         Self {
             s: at.s,
             l: [at.l, dl, ddl],

@@ -8,6 +8,7 @@ mod export;
 mod import;
 mod map;
 mod output;
+mod planner;
 mod run;
 mod source;
 mod sweep;

@@ -1,6 +1,7 @@
 //! `corridor run`: one scenario, one verdict.
 
 use super::export::Export;
+use super::planner::PlannerChoice;
 use super::{Gate, output, source};
 use clap::Args;
 use corridor_scenarios::{Family, MapCache, Scenario};
@@ -34,12 +35,19 @@ pub(crate) struct Run {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<String>,
     #[command(flatten)]
+    planner: PlannerChoice,
+    #[command(flatten)]
     export: Export,
 }
 
 impl Run {
+    /// The settings that are not the defaults.
+    fn overrides(&self) -> Vec<String> {
+        self.planner.with(&self.settings)
+    }
+
     pub(crate) fn execute(&self) -> anyhow::Result<Gate> {
-        let settings = Settings::with(&self.settings)?;
+        let settings = Settings::with(&self.overrides())?;
         let family = source::family(&self.scenario, &MapCache::new())?;
         self.export.check(&family)?;
         let seed = match self.problem {
@@ -65,7 +73,7 @@ impl Run {
     fn run(&self, family: &Family, scenario: &Scenario, settings: &Settings) -> anyhow::Result<Verdict> {
         if self.view.is_none() && !self.export.is_wanted() {
             return Ok(match &self.trace {
-                Some(path) => run::run_traced(family, scenario, &self.settings, settings, path)?,
+                Some(path) => run::run_traced(family, scenario, &self.overrides(), settings, path)?,
                 None => run::run(scenario, settings),
             });
         }
@@ -79,10 +87,10 @@ impl Run {
         }
         let trace = match &self.trace {
             Some(path) => {
-                run::run_traced(family, scenario, &self.settings, settings, path)?;
+                run::run_traced(family, scenario, &self.overrides(), settings, path)?;
                 Trace::open(path)?
             }
-            None => run::run_recorded(family, scenario, &self.settings, settings),
+            None => run::run_recorded(family, scenario, &self.overrides(), settings),
         };
         if let Some(page) = &self.view {
             output::write(page, &view::page(&trace))?;

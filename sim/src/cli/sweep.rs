@@ -1,5 +1,6 @@
 //! `corridor sweep`: many runs, one report.
 
+use super::planner::PlannerChoice;
 use super::{Gate, output, source};
 use clap::{Args, value_parser};
 use corridor_scenarios::MapCache;
@@ -46,11 +47,18 @@ pub(crate) struct Sweep {
     /// Change a setting of all runs.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<String>,
+    #[command(flatten)]
+    planner: PlannerChoice,
 }
 
 impl Sweep {
+    /// The settings that are not the defaults.
+    fn overrides(&self) -> Vec<String> {
+        self.planner.with(&self.settings)
+    }
+
     pub(crate) fn execute(&self) -> anyhow::Result<Gate> {
-        let settings = Settings::with(&self.settings)?;
+        let settings = Settings::with(&self.overrides())?;
         let selection = source::select(&self.scenarios, &MapCache::new())?;
         for skipped in &selection.skipped {
             output::note(&format!("skipped {skipped}"));
@@ -62,12 +70,18 @@ impl Sweep {
         self.check_outputs()?;
         let plan = Plan::new(selection.families, self.count as usize, self.seed);
         let bar = progress_bar(plan.jobs().len());
-        let report = sweep(&plan, &settings, &self.settings, usize::from(self.jobs), &|row| {
-            bar.inc(1);
-            if let Some(failure) = row.failure() {
-                bar.println(format!("{} seed {}: {failure}", row.scenario, row.seed));
-            }
-        })?;
+        let report = sweep(
+            &plan,
+            &settings,
+            &self.overrides(),
+            usize::from(self.jobs),
+            &|row| {
+                bar.inc(1);
+                if let Some(failure) = row.failure() {
+                    bar.println(format!("{} seed {}: {failure}", row.scenario, row.seed));
+                }
+            },
+        )?;
         bar.finish_and_clear();
         output::print(&to_table(&report, Colour::from_env()));
         self.write(&plan, &settings, &report)?;
@@ -118,7 +132,7 @@ impl Sweep {
                 row.seed
             ));
             let family = find(plan, row).expect("it was found a line ago");
-            run::run_traced(family, &drawn.scenario, &self.settings, settings, &path)?;
+            run::run_traced(family, &drawn.scenario, &self.overrides(), settings, &path)?;
         }
         Ok(())
     }

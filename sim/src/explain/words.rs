@@ -90,6 +90,7 @@ pub(crate) fn fallback(trace: &Trace, fallback: Fallback) -> String {
     let cause = match fallback.cause {
         FallbackCause::Task(task) => format!("the task `{task}` failed"),
         FallbackCause::Trajectory(unfit) => format!("the trajectory is not fit to be driven: {unfit}"),
+        FallbackCause::NoSampledTrajectory => "no sampled trajectory may be driven".to_owned(),
         FallbackCause::Context(ContextFailure::NoLocalisation) => "the ego's place is not known".to_owned(),
         FallbackCause::Context(ContextFailure::NoReferenceLine) => "there is no reference line".to_owned(),
         FallbackCause::Context(ContextFailure::Overlap(id)) => {
@@ -107,6 +108,8 @@ pub(crate) fn fallback(trace: &Trace, fallback: Fallback) -> String {
         SpeedRung::EmergencyJerk => "speed: optimised stop with emergency jerk",
         SpeedRung::Ramp => "speed: braking ramp",
         SpeedRung::ConstantDeceleration => "speed: constant braking",
+        SpeedRung::LatticeBackup => "speed: the gentlest constant braking that touches nothing",
+        SpeedRung::LatticeLastResort => "speed: the hardest braking, though it is not free",
     });
     let parts = [Some(&cause[..]), path, speed];
     parts.into_iter().flatten().collect::<Vec<&str>>().join("; ")

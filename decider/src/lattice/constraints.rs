@@ -1,0 +1,96 @@
+//! What a motion may not do (the original's `ConstraintChecker1d` and `ConstraintChecker`).
+
+use super::curve::Curve;
+use super::grid::{HORIZON, TIMES};
+
+/// Speeds, m/s.
+const SPEED: (f64, f64) = (-0.1, 40.0);
+
+/// Longitudinal accelerations, m/s², and jerks, m/s³.
+const ACCELERATION: (f64, f64) = (-6.0, 4.0);
+const JERK: (f64, f64) = (-4.0, 2.0);
+
+/// Lateral acceleration, m/s², and jerk, m/s³, to either side.
+const LATERAL_ACCELERATION: f64 = 4.0;
+const LATERAL_JERK: f64 = 4.0;
+
+/// Curvature to either side, 1/m (`kappa_bound`).
+const KAPPA: f64 = 0.1979;
+
+/// How far a one-dimensional motion may be beyond a limit.
+const TOLERANCE: f64 = 1e-4;
+
+/// What a trajectory does that it may not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Violation {
+    /// Too fast, or backwards.
+    Speed,
+    /// Speeds up or brakes too hard.
+    Acceleration,
+    /// Bends more than the steering can.
+    Curvature,
+    /// Acceleration changes too fast.
+    Jerk,
+    /// Too fast for its bend.
+    LateralAcceleration,
+}
+
+/// Time, speed, acceleration and curvature of a trajectory's point.
+type Dynamics = [f64; 4];
+
+/// Whether a longitudinal curve keeps speed, acceleration and jerk at all times of the grid before its end.
+pub fn keeps_longitudinal_limits(curve: &Curve) -> bool {
+    let inside = |value: f64, (low, high): (f64, f64)| value > low - TOLERANCE && value < high + TOLERANCE;
+    TIMES.iter().take_while(|t| **t < curve.length()).all(|t| {
+        let [_, v, a, jerk] = curve.at(*t);
+        inside(v, SPEED) && inside(a, ACCELERATION) && inside(jerk, JERK)
+    })
+}
+
+/// Whether a lateral curve, driven as a longitudinal one says, keeps lateral acceleration and jerk. The planner leaves
+/// that to the check of the whole trajectory.
+pub fn keeps_lateral_limits(lateral: &Curve, longitudinal: &Curve) -> bool {
+    let start = longitudinal.at(0.0)[0];
+    TIMES.iter().take_while(|t| **t < longitudinal.length()).all(|t| {
+        let [s, v, a, jerk] = longitudinal.at(*t);
+        let [_, dl, ddl, dddl] = lateral.at(s - start);
+        (ddl * v * v + dl * a).abs() <= LATERAL_ACCELERATION && (dddl * jerk).abs() <= LATERAL_JERK
+    })
+}
+
+/// The first thing that a trajectory does within the horizon that it may not: first among its points, then among its
+/// pairs of points. A point is time, speed, acceleration and curvature.
+pub fn violation(points: impl Iterator<Item = [f64; 4]> + Clone) -> Option<Violation> {
+    let points = points.take_while(|[t, ..]| *t <= HORIZON);
+    let inside = |value: f64, (low, high): (f64, f64)| value >= low && value <= high;
+    let of_point = |[_, v, a, kappa]: Dynamics| {
+        if !inside(v, SPEED) {
+            Some(Violation::Speed)
+        } else if !inside(a, ACCELERATION) {
+            Some(Violation::Acceleration)
+        } else if !inside(kappa, (-KAPPA, KAPPA)) {
+            Some(Violation::Curvature)
+        } else {
+            None
+        }
+    };
+    let of_pair = |([t0, _, a0, _], [t1, v, a1, kappa]): (Dynamics, Dynamics)| {
+        if !inside((a1 - a0) / (t1 - t0), JERK) {
+            Some(Violation::Jerk)
+        } else if !inside(v * v * kappa, (-LATERAL_ACCELERATION, LATERAL_ACCELERATION)) {
+            Some(Violation::LateralAcceleration)
+        } else {
+            None
+        }
+    };
+    let mut pairs = points.clone().zip(points.clone().skip(1));
+    points
+        .clone()
+        .find_map(of_point)
+        .or_else(|| pairs.find_map(of_pair))
+}
+
+/// Whether a curvature is one that the car can drive.
+pub(super) fn is_steerable(kappa: f64) -> bool {
+    kappa.abs() <= KAPPA
+}

@@ -1,0 +1,114 @@
+//! Motion in one dimension: `s(t)` or `l(s)`, continued beyond its end with the acceleration that it ends with.
+
+use super::piecewise::Piecewise;
+use crate::geometry::Polynomial;
+
+/// A curve in one parameter, from 0 on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    shape: Shape,
+    length: f64,
+    /// Value, first and second derivative at the end.
+    end: [f64; 3],
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Shape {
+    Polynomial(Polynomial),
+    Piecewise(Piecewise),
+    Deceleration(ConstantDeceleration),
+}
+
+impl Shape {
+    fn at(&self, p: f64) -> [f64; 4] {
+        match self {
+            Self::Polynomial(polynomial) => polynomial.at(p),
+            Self::Piecewise(piecewise) => piecewise.at(p),
+            Self::Deceleration(deceleration) => deceleration.at(p),
+        }
+    }
+}
+
+impl Curve {
+    fn new(shape: Shape, length: f64) -> Self {
+        let [x, v, a, _] = shape.at(length);
+        Self {
+            shape,
+            length,
+            end: [x, v, a],
+        }
+    }
+
+    /// Length of the parameter's interval.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The value at the end.
+    pub fn end(&self) -> f64 {
+        self.end[0]
+    }
+
+    /// Value and first three derivatives at `p`. From the end on the second derivative stays as it is there.
+    pub fn at(&self, p: f64) -> [f64; 4] {
+        if p < self.length {
+            return self.shape.at(p);
+        }
+        let [x, v, a] = self.end;
+        let beyond = p - self.length;
+        [x + v * beyond + 0.5 * a * beyond * beyond, v + a * beyond, a, 0.0]
+    }
+}
+
+impl From<Polynomial> for Curve {
+    fn from(polynomial: Polynomial) -> Self {
+        Self::new(Shape::Polynomial(polynomial), polynomial.length())
+    }
+}
+
+impl From<ConstantDeceleration> for Curve {
+    fn from(deceleration: ConstantDeceleration) -> Self {
+        Self::new(Shape::Deceleration(deceleration), deceleration.length())
+    }
+}
+
+impl From<Piecewise> for Curve {
+    fn from(piecewise: Piecewise) -> Self {
+        let length = piecewise.length();
+        Self::new(Shape::Piecewise(piecewise), length)
+    }
+}
+
+/// Constant braking to standstill, and standing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConstantDeceleration {
+    s: f64,
+    v: f64,
+    /// Positive.
+    braking: f64,
+}
+
+impl ConstantDeceleration {
+    /// From `s` with speed `v`, of which the size counts, braking with `a`; `None` unless that is negative.
+    pub fn new(s: f64, v: f64, a: f64) -> Option<Self> {
+        (a < 0.0).then_some(Self {
+            s,
+            v: v.abs(),
+            braking: -a,
+        })
+    }
+
+    /// When the car stands, s.
+    pub fn length(&self) -> f64 {
+        self.v / self.braking
+    }
+
+    /// Place, speed, acceleration and jerk at a time.
+    pub fn at(&self, t: f64) -> [f64; 4] {
+        if t >= self.length() {
+            return [self.s + self.v * self.v / (2.0 * self.braking), 0.0, 0.0, 0.0];
+        }
+        let v = self.v - self.braking * t;
+        [self.s + (v + self.v) * 0.5 * t, v, -self.braking, 0.0]
+    }
+}

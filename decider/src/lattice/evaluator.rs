@@ -1,0 +1,183 @@
+//! The queue of pairs, cheapest first (the original's `TrajectoryEvaluator`).
+//!
+//! What a longitudinal curve costs alone bounds the cost of its pairs from below. So the pairs of a curve are made only
+//! when that curve comes to the head of the queue: in most ticks a few of them.
+
+use super::config::Weights;
+use super::constraints::keeps_longitudinal_limits;
+use super::cost::{LateralProfile, LongitudinalCosts, Sampled, lateral_comfort};
+use super::curve::Curve;
+use super::grid::{HORIZON, SAMPLES};
+use super::line_table::LineTable;
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+
+/// Room that is kept to the stop point, m (`lattice_stop_buffer`).
+pub(super) const STOP_BUFFER: f64 = 0.02;
+
+/// A pair of curves by their places in the bundles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pair {
+    /// Place of the longitudinal curve.
+    pub longitudinal: usize,
+    /// Place of the lateral curve.
+    pub lateral: usize,
+    /// What it costs.
+    pub cost: f64,
+}
+
+/// Whether a curve from before the stop point stays before it within the horizon.
+pub fn keeps_stop(curve: &Curve, stop_s: Option<f64>) -> bool {
+    stop_s.is_none_or(|stop_s| curve.at(0.0)[0] >= stop_s || curve.at(HORIZON)[0] + STOP_BUFFER <= stop_s)
+}
+
+/// What is in the queue: all pairs of a curve, or one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Entry {
+    cost: f64,
+    longitudinal: usize,
+    /// `None`: all of them.
+    lateral: Option<usize>,
+}
+
+impl Eq for Entry {}
+
+impl PartialOrd for Entry {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Entry {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let places = |entry: &Self| (entry.longitudinal, entry.lateral);
+        self.cost
+            .total_cmp(&other.cost)
+            .then(places(self).cmp(&places(other)))
+    }
+}
+
+/// A longitudinal curve that may be driven.
+#[derive(Clone, Debug, PartialEq)]
+struct Candidate {
+    /// Its place in the bundle.
+    place: usize,
+    sampled: Sampled,
+}
+
+/// The pairs of two bundles, cheapest first; among equals the first in the bundles.
+#[derive(Clone, Debug)]
+pub struct Evaluator<'a> {
+    candidates: Vec<Candidate>,
+    laterals: &'a [LateralProfile],
+    weights: Weights,
+    queue: BinaryHeap<Reverse<Entry>>,
+}
+
+/// What all curves are held against.
+#[derive(Clone, Copy, Debug)]
+pub struct Surroundings<'a> {
+    /// Station that may not be passed.
+    pub stop_s: Option<f64>,
+    /// The guide speed.
+    pub guide: &'a [f64; SAMPLES],
+    /// What the path-time graph holds at the times of the grid.
+    pub blocked: &'a [Vec<(f64, f64)>],
+    /// The line.
+    pub line: &'a LineTable,
+}
+
+impl<'a> Evaluator<'a> {
+    /// Filters and evaluates the longitudinal curves.
+    pub fn new<'c>(
+        curves: impl Iterator<Item = &'c Curve>,
+        laterals: &'a [LateralProfile],
+        around: &Surroundings,
+        weights: Weights,
+    ) -> Self {
+        let mut evaluator = Self {
+            candidates: Vec::new(),
+            laterals,
+            weights,
+            queue: BinaryHeap::new(),
+        };
+        for (place, curve) in curves.enumerate() {
+            if keeps_stop(curve, around.stop_s) && keeps_longitudinal_limits(curve) {
+                evaluator.add(place, curve, around);
+            }
+        }
+        evaluator
+    }
+
+    fn add(&mut self, place: usize, curve: &Curve, around: &Surroundings) {
+        let sampled = Sampled::new(curve);
+        let costs = LongitudinalCosts::new(&sampled, around.guide, around.blocked, around.line);
+        self.queue.push(Reverse(Entry {
+            cost: longitudinal_cost(&self.weights, &costs),
+            longitudinal: self.candidates.len(),
+            lateral: None,
+        }));
+        self.candidates.push(Candidate { place, sampled });
+    }
+
+    /// Places of the longitudinal curves that passed the filters.
+    pub fn survivors(&self) -> impl Iterator<Item = usize> + '_ {
+        self.candidates.iter().map(|candidate| candidate.place)
+    }
+
+    /// Number of pairs in all.
+    pub fn pairs(&self) -> usize {
+        self.candidates.len() * self.laterals.len()
+    }
+
+    /// Samples of a longitudinal curve by its place in the bundle.
+    pub fn sampled(&self, place: usize) -> Option<&Sampled> {
+        let found = self
+            .candidates
+            .binary_search_by_key(&place, |candidate| candidate.place);
+        found.ok().map(|k| &self.candidates[k].sampled)
+    }
+}
+
+impl Iterator for Evaluator<'_> {
+    type Item = Pair;
+
+    fn next(&mut self) -> Option<Pair> {
+        loop {
+            let Reverse(entry) = self.queue.pop()?;
+            let candidate = &self.candidates[entry.longitudinal];
+            if let Some(lateral) = entry.lateral {
+                return Some(Pair {
+                    longitudinal: candidate.place,
+                    lateral,
+                    cost: entry.cost,
+                });
+            }
+            for (lateral, profile) in self.laterals.iter().enumerate() {
+                let offset = profile.offset_cost(candidate.sampled.way);
+                let comfort = lateral_comfort(&candidate.sampled, &profile.curve);
+                self.queue.push(Reverse(Entry {
+                    cost: with_lateral(entry.cost, &self.weights, offset, comfort),
+                    longitudinal: entry.longitudinal,
+                    lateral: Some(lateral),
+                }));
+            }
+        }
+    }
+}
+
+fn longitudinal_cost(weights: &Weights, costs: &LongitudinalCosts) -> f64 {
+    costs.objective * weights.lon_objective
+        + costs.jerk * weights.lon_jerk
+        + costs.collision * weights.lon_collision
+        + costs.centripetal * weights.centripetal_acceleration
+}
+
+fn with_lateral(cost: f64, weights: &Weights, offset: f64, comfort: f64) -> f64 {
+    cost + offset * weights.lat_offset + comfort * weights.lat_comfort
+}
+
+/// The weighted sum of all costs of a pair.
+pub fn total_cost(weights: &Weights, costs: &LongitudinalCosts, offset: f64, comfort: f64) -> f64 {
+    with_lateral(longitudinal_cost(weights, costs), weights, offset, comfort)
+}

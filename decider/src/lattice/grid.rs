@@ -1,0 +1,34 @@
+//! The times at which everything is sampled.
+
+/// How far ahead the planner looks, s (`trajectory_time_length`).
+pub const HORIZON: f64 = 8.0;
+
+/// Time between two samples, s (`trajectory_time_resolution`).
+const STEP: f64 = 0.1;
+
+/// Number of samples.
+pub const SAMPLES: usize = 81;
+
+/// The times, s. They are added up as the original's are, so that the last one lies just before 8 and a curve of 8 s has
+/// not ended there: its jerk counts to the end.
+pub const TIMES: [f64; SAMPLES] = added_up();
+
+const fn added_up() -> [f64; SAMPLES] {
+    let mut times = [0.0; SAMPLES];
+    let mut k = 1;
+    while k < SAMPLES {
+        times[k] = times[k - 1] + STEP;
+        k += 1;
+    }
+    times
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_time_lies_just_before_the_horizon() {
+        const { assert!(TIMES[SAMPLES - 1] < HORIZON && TIMES[SAMPLES - 1] > HORIZON - 1e-12) };
+    }
+}

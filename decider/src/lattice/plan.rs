@@ -1,0 +1,337 @@
+//! The plan along one line: bundles, queue, checks, and braking where nothing passes them.
+
+use super::PlanningTarget;
+use super::backup::{BackupPair, backup_order, straightest};
+use super::bundle::{Longitudinal, lateral_bundle, longitudinal_bundle};
+use super::collision::{CollisionEnvironment, Footprint, Near};
+use super::combine::{LongitudinalTrack, Point, combine};
+use super::config::LatticeConfig;
+use super::constraints::{Violation, is_steerable, violation};
+use super::cost::{LateralProfile, Sampled};
+use super::curve::{ConstantDeceleration, Curve};
+use super::end_conditions;
+use super::evaluator::{Evaluator, Pair, STOP_BUFFER, Surroundings};
+use super::feasible_region::FeasibleRegion;
+use super::grid::SAMPLES;
+use super::guide::guide_speeds;
+use super::lateral_bounds::lateral_bounds;
+use super::lateral_optimum::lateral_optimum;
+use super::line_table::LineTable;
+use super::path_time_graph::{LaneWidth, PathTimeGraph, Project};
+use super::prediction::{motions_of, projected_speed};
+use crate::frame::{Obstacle, ObstacleId};
+use crate::geometry::frenet::FrenetMotion;
+use crate::piecewise_jerk::Riccati;
+use crate::vehicle::VehicleParams;
+
+/// How far before the stop point stop curves end, m: what the stop filter asks for, and a little more.
+const STOP_MARGIN: f64 = STOP_BUFFER + 0.01;
+
+/// A car that is this near to its stop point has arrived, m.
+const ARRIVED: f64 = 0.1;
+
+/// Beside the line by less than this, what is behind the car in its lane is left to look out for itself, m.
+const LANE_HALF_WIDTH: f64 = 2.0;
+
+/// What a lateral curve may be farther from the line between two metres than at them, m.
+const BETWEEN_METRES: f64 = 0.3;
+
+/// What a plan along a line is made from.
+#[derive(Clone, Copy)]
+pub struct LineTask<'a> {
+    /// The line.
+    pub line: &'a LineTable,
+    /// Where the plan starts.
+    pub initial: FrenetMotion,
+    /// Everything in the way or near it.
+    pub obstacles: &'a [Obstacle],
+    /// What the plan is for.
+    pub target: PlanningTarget,
+    /// The ego.
+    pub vehicle: &'a VehicleParams,
+    /// Settings.
+    pub config: &'a LatticeConfig,
+    /// Half-widths of the lane.
+    pub lane_width: LaneWidth<'a>,
+    /// Frenet coordinates of points.
+    pub project: Project<'a>,
+}
+
+/// Why a pair may not be driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rejection {
+    /// The line ends first, or the offset leads beyond the centre of one of its bends.
+    LeavesLine,
+    /// It does what it may not.
+    Violates(Violation),
+    /// It touches this obstacle.
+    Touches(ObstacleId),
+}
+
+/// How the search along a line ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// With a pair that may be driven.
+    Found(Pair),
+    /// With braking that touches nothing.
+    Backup(BackupPair),
+    /// With the hardest braking, and even that is against something.
+    LastResort(BackupPair, Rejection),
+}
+
+/// How much there was to search.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sizes {
+    /// Longitudinal curves.
+    pub longitudinal: usize,
+    /// Those of them that keep their limits.
+    pub candidates: usize,
+    /// Lateral curves.
+    pub lateral: usize,
+    /// Pairs that were looked at.
+    pub looked_at: usize,
+}
+
+/// What is driven along a line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Planned {
+    /// How the search ended.
+    pub outcome: Outcome,
+    /// The trajectory.
+    pub points: Vec<Point>,
+    /// Its way across the line.
+    pub lateral: Curve,
+    /// How much there was to search.
+    pub sizes: Sizes,
+}
+
+/// A pair with what is wrong with it, if anything is.
+pub type Assessed = (Pair, Option<Rejection>);
+
+/// A longitudinal curve laid on the line, with what it comes near to.
+#[derive(Clone, Debug, Default)]
+struct Laid {
+    track: LongitudinalTrack,
+    near: Near,
+}
+
+/// Everything that is known of one line before the search.
+pub struct Lattice<'a> {
+    task: LineTask<'a>,
+    longitudinal: Vec<Longitudinal>,
+    laterals: Vec<LateralProfile>,
+    guide: [f64; SAMPLES],
+    blocked: Vec<Vec<(f64, f64)>>,
+    environment: CollisionEnvironment,
+    ego: Footprint,
+    largest_offset: f64,
+    /// What the path-time graph holds.
+    pub graph: PathTimeGraph,
+}
+
+impl<'a> Lattice<'a> {
+    /// Samples the curves of a task and looks at its obstacles.
+    pub fn new(task: LineTask<'a>) -> Self {
+        let [s, v, _] = task.initial.s;
+        let graph = PathTimeGraph::new(task.obstacles, s, task.lane_width, task.project);
+        let laterals = laterals(&task, &graph);
+        let largest = laterals.iter().map(|lateral| lateral.largest).fold(0.0, f64::max);
+        Self {
+            longitudinal: longitudinal(&task, &graph),
+            guide: guide_speeds(&task.target, s, v),
+            blocked: graph.blocked(),
+            environment: environment(&task),
+            ego: Footprint::of(task.vehicle),
+            largest_offset: largest + BETWEEN_METRES,
+            laterals,
+            graph,
+            task,
+        }
+    }
+
+    /// The pairs of the curves that keep their limits, cheapest first.
+    pub fn pairs(&self) -> Evaluator<'_> {
+        let around = Surroundings {
+            stop_s: self.task.target.stop_s,
+            guide: &self.guide,
+            blocked: &self.blocked,
+            line: self.task.line,
+        };
+        let curves = self.longitudinal.iter().map(|longitudinal| &longitudinal.curve);
+        Evaluator::new(curves, &self.laterals, &around, self.task.config.weights)
+    }
+
+    fn lay(&self, curve: &Sampled, laid: &mut Laid) {
+        laid.track.lay(curve, self.task.line);
+        self.environment
+            .find_near(&laid.track, self.largest_offset, &self.ego, &mut laid.near);
+    }
+
+    /// What is wrong with a pair, if anything is; its points are left in `points`.
+    fn rejection(&self, laid: &Laid, lateral: usize, points: &mut Vec<Point>) -> Option<Rejection> {
+        combine(&laid.track, &self.laterals[lateral].curve, points);
+        if points.len() < SAMPLES {
+            return Some(Rejection::LeavesLine);
+        }
+        let violates = violation(points.iter().map(Point::dynamics)).map(Rejection::Violates);
+        violates.or_else(|| laid.near.touched(points, &self.ego).map(Rejection::Touches))
+    }
+
+    /// Every pair with what is wrong with it, in the order of the longitudinal curves.
+    pub fn survey(&self) -> Vec<Assessed> {
+        let mut pairs: Vec<Pair> = Vec::new();
+        let mut queue = self.pairs();
+        pairs.extend(&mut queue);
+        pairs.sort_by_key(|pair| (pair.longitudinal, pair.lateral));
+        let (mut laid, mut points, mut on) = (Laid::default(), Vec::with_capacity(SAMPLES), None);
+        let mut assess = |pair: Pair| {
+            if let Some(sampled) = queue
+                .sampled(pair.longitudinal)
+                .filter(|_| on != Some(pair.longitudinal))
+            {
+                self.lay(sampled, &mut laid);
+                on = Some(pair.longitudinal);
+            }
+            (pair, self.rejection(&laid, pair.lateral, &mut points))
+        };
+        pairs.into_iter().map(&mut assess).collect()
+    }
+
+    /// The cheapest pair that may be driven, else braking; `None` where there is nothing to drive on.
+    pub fn plan(&self) -> Option<Planned> {
+        let mut points = Vec::with_capacity(SAMPLES);
+        let mut queue = self.pairs();
+        let mut sizes = Sizes {
+            longitudinal: self.longitudinal.len(),
+            candidates: queue.survivors().count(),
+            lateral: self.laterals.len(),
+            looked_at: 0,
+        };
+        let mut laid: Vec<Option<Laid>> = vec![None; self.longitudinal.len()];
+        while let Some(pair) = queue.next() {
+            sizes.looked_at += 1;
+            let Some(sampled) = queue.sampled(pair.longitudinal) else {
+                continue;
+            };
+            let laid = laid[pair.longitudinal].get_or_insert_with(|| {
+                let mut laid = Laid::default();
+                self.lay(sampled, &mut laid);
+                laid
+            });
+            if self.rejection(laid, pair.lateral, &mut points).is_none() {
+                return Some(Planned {
+                    outcome: Outcome::Found(pair),
+                    points,
+                    lateral: self.laterals[pair.lateral].curve.clone(),
+                    sizes,
+                });
+            }
+        }
+        self.backup(sizes)
+    }
+
+    /// The gentlest constant braking that touches nothing, else the hardest.
+    fn backup(&self, sizes: Sizes) -> Option<Planned> {
+        let [s, v, _] = self.task.initial.s;
+        let curves: Vec<Curve> = self
+            .laterals
+            .iter()
+            .map(|lateral| lateral.curve.clone())
+            .collect();
+        let planned = |outcome, points, lateral: usize| Planned {
+            outcome,
+            points,
+            lateral: curves[lateral].clone(),
+            sizes,
+        };
+        for pair in backup_order(s, v, &curves) {
+            let Some((points, rejection)) = self.braking(pair) else {
+                continue;
+            };
+            if rejection.is_none() {
+                return Some(planned(Outcome::Backup(pair), points, pair.lateral));
+            }
+        }
+        let deceleration = self.task.vehicle.max_deceleration;
+        let pair = BackupPair {
+            deceleration,
+            lateral: straightest(&curves, v * v / (-2.0 * deceleration))?,
+            end_speed: 0.0,
+        };
+        let (points, rejection) = self.braking(pair)?;
+        let outcome = match rejection {
+            None => Outcome::Backup(pair),
+            Some(rejection) => Outcome::LastResort(pair, rejection),
+        };
+        Some(planned(outcome, points, pair.lateral))
+    }
+
+    /// Constant braking as a trajectory, and what is wrong with it. Nobody asks it to be comfortable.
+    fn braking(&self, pair: BackupPair) -> Option<(Vec<Point>, Option<Rejection>)> {
+        let [s, v, _] = self.task.initial.s;
+        let curve = ConstantDeceleration::new(s, v, pair.deceleration)?;
+        let mut laid = Laid::default();
+        self.lay(&Sampled::new(&curve.into()), &mut laid);
+        let mut points = Vec::with_capacity(SAMPLES);
+        combine(&laid.track, &self.laterals[pair.lateral].curve, &mut points);
+        if points.len() < 2 {
+            return None;
+        }
+        let bends = points.iter().any(|point| !is_steerable(point.kappa));
+        let bends = bends.then_some(Rejection::Violates(Violation::Curvature));
+        let rejection = bends.or_else(|| laid.near.touched(&points, &self.ego).map(Rejection::Touches));
+        Some((points, rejection))
+    }
+}
+
+fn longitudinal(task: &LineTask, graph: &PathTimeGraph) -> Vec<Longitudinal> {
+    let [s, v, _] = task.initial.s;
+    let region = FeasibleRegion::new(s, v);
+    if task.target.stop_s.is_some_and(|stop_s| s >= stop_s - ARRIVED) {
+        // The stop filter lets everything pass that is beyond the stop point; nothing but standing is wanted there.
+        return longitudinal_bundle(task.initial.s, &end_conditions::cruise(&region, 0.0), &[], &[]);
+    }
+    let mut beside = Vec::new();
+    for entry in &graph.entries {
+        let motions = task
+            .obstacles
+            .iter()
+            .find(|obstacle| obstacle.id == entry.id)
+            .map(motions_of);
+        let motions = motions.unwrap_or_default();
+        beside.extend(end_conditions::path_time(entry, &region, task.vehicle, |point| {
+            projected_speed(&motions, task.line.at(point.s).pose.theta, point.t)
+        }));
+    }
+    let stop = task
+        .target
+        .stop_s
+        .map(|stop_s| end_conditions::stop(s, stop_s - STOP_MARGIN));
+    let cruise = end_conditions::cruise(&region, task.target.cruise_speed);
+    longitudinal_bundle(task.initial.s, &cruise, &beside, &stop.unwrap_or_default())
+}
+
+fn laterals(task: &LineTask, graph: &PathTimeGraph) -> Vec<LateralProfile> {
+    let mut curves: Vec<Curve> = lateral_bundle(&task.initial)
+        .into_iter()
+        .map(Curve::from)
+        .collect();
+    if task.config.lateral_optimization {
+        let (s, l) = (task.initial.s[0], task.initial.l[0]);
+        let bounds = lateral_bounds(s, l, &graph.standing, task.lane_width, task.vehicle);
+        curves.extend(lateral_optimum(task.initial.l, &bounds, &mut Riccati::new()));
+    }
+    curves.into_iter().map(LateralProfile::new).collect()
+}
+
+/// What the car has to keep clear of: all but what is behind it in its lane.
+fn environment(task: &LineTask) -> CollisionEnvironment {
+    let (s, l) = (task.initial.s[0], task.initial.l[0]);
+    let (left, right) = (task.lane_width)(s).unwrap_or((LANE_HALF_WIDTH, LANE_HALF_WIDTH));
+    let in_lane = -right < l && l < left;
+    let is_behind = |obstacle: &Obstacle| {
+        let at = (task.project)(obstacle.pose.position(), s);
+        at.s < s && at.l.abs() < LANE_HALF_WIDTH
+    };
+    CollisionEnvironment::new(task.obstacles, 0.0, |obstacle| in_lane && is_behind(obstacle))
+}

@@ -1,0 +1,294 @@
+//! The lattice planner: one tick from frame to decision. Every line is planned for itself; the cheapest one is driven.
+
+use crate::config::Config;
+use crate::context::{Context, LastPath, LastTrajectory};
+use crate::decision::{Decision, Fallback, FallbackCause, Outcome, SpeedRung, Stop, StopCause};
+use crate::fallback;
+use crate::frame::{Command, Frame};
+use crate::geometry::Vec2;
+use crate::geometry::frenet::{FrenetMotion, PlaneMotion};
+use crate::lattice::{self, Lattice, LineTable, LineTask, Planned, PlanningTarget};
+use crate::reference_line::{LineQuery, ReferenceLine};
+use crate::st_graph::StPair;
+use crate::tasks::lane_change;
+use crate::tasks::path_bounds::{Borrow, Label, LaneType};
+use crate::tasks::start_point::{StartPoint, start_point};
+use crate::vehicle::VehicleParams;
+
+/// What braking costs a line, and what it costs where even that is against something (`backup_trajectory_cost`).
+const BACKUP_COST: f64 = 1e3;
+const LAST_RESORT_COST: f64 = 1e6;
+
+/// A slower car stands, m/s: it no longer slows down, whatever was measured.
+const STANDS: f64 = 0.05;
+
+/// Lateral acceleration that the cruise speed allows in bends, m/s²: half of what may be driven.
+const BEND_ACCELERATION: f64 = 2.0;
+
+/// Braking with which a lower limit ahead is reached, m/s².
+const EASY_BRAKING: f64 = 1.5;
+
+/// The way that is looked ahead for lower limits, m.
+const LOOK_AHEAD: f64 = 100.0;
+
+/// Curvature below this limits no speed, 1/m.
+const STRAIGHT: f64 = 1e-4;
+
+/// The car stops this far before the end of its line, m: its last point is still on it.
+const LINE_END: f64 = 0.1;
+
+/// The line is known this far behind the car and beyond what it can reach, m.
+const BEHIND: f64 = 10.0;
+const BEYOND: f64 = 40.0;
+
+/// The path is told at least as far as this, m: a car that stands has one, too.
+const LEAST_PATH: f64 = 5.0;
+
+/// Slower than this at its end a trajectory stops, m/s.
+const STOPPED: f64 = 0.2;
+
+/// Decides tick after tick with fixed settings; what changes is in the [`Context`].
+#[derive(Clone, Debug)]
+pub struct LatticePlanner {
+    config: Config,
+    vehicle: VehicleParams,
+}
+
+/// What came of one line.
+struct OfLine {
+    place: usize,
+    cost: f64,
+    planned: Planned,
+    table: LineTable,
+    s: f64,
+    stop: Option<Stop>,
+}
+
+impl LatticePlanner {
+    /// A planner for one vehicle.
+    pub fn new(config: Config, vehicle: VehicleParams) -> Self {
+        Self { config, vehicle }
+    }
+
+    /// Decides one tick. Never fails: what goes wrong is an [`Outcome`].
+    pub fn decide(&self, frame: &Frame, context: &mut Context) -> Decision {
+        let start = start_point(frame, context.last.as_ref());
+        let decision = match fallback::context_failure(frame, &start, &self.vehicle) {
+            Some(failure) => {
+                fallback::without_context(frame, failure, context, &self.vehicle, &self.config.quirks)
+            }
+            None => self.plan(frame, start, context),
+        };
+        context.last = (!decision.trajectory.is_empty()).then(|| LastTrajectory {
+            time: frame.time,
+            points: decision.trajectory.clone(),
+        });
+        decision
+    }
+
+    fn plan(&self, frame: &Frame, start: StartPoint, context: &mut Context) -> Decision {
+        context.blind_since = None;
+        let preferred = lane_change::target_line(frame).unwrap_or(0);
+        let lines = (0..frame.lines.len())
+            .filter_map(|place| self.plan_line(frame, place, place == preferred, &start));
+        let best = lines.min_by(|a, b| a.cost.total_cmp(&b.cost));
+        let decision = match best {
+            Some(best) => conclude(&best, &start),
+            None => Decision::without_path(
+                Outcome::EmergencyStop,
+                FallbackCause::NoSampledTrajectory,
+                None,
+                fallback::brake_on_arc(&start, &self.vehicle),
+            ),
+        };
+        context.stop = decision.stop;
+        context.path = (!decision.path.is_empty()).then(|| LastPath {
+            time: frame.time,
+            label: OWN_LANE,
+            points: decision.path.clone(),
+        });
+        decision
+    }
+
+    /// The plan along one line; `None` where the car's motion has no place on it.
+    fn plan_line(
+        &self,
+        frame: &Frame,
+        place: usize,
+        is_preferred: bool,
+        start: &StartPoint,
+    ) -> Option<OfLine> {
+        let line = &*frame.lines[place].line;
+        let initial = initial_state(line, start)?;
+        let [s, v, _] = initial.s;
+        let target = target(frame, line, s, v);
+        let reach = (v.max(target.cruise_speed) + self.vehicle.max_acceleration) * lattice::HORIZON + BEYOND;
+        let table = LineTable::sampled(line, s - BEHIND, s + reach)?;
+        let lane_width = |s| line.lane_width(s);
+        let project = |point: Vec2, near: f64| {
+            if near.is_finite() {
+                line.to_frenet_near(point, near)
+            } else {
+                line.to_frenet(point)
+            }
+        };
+        let lattice = Lattice::new(LineTask {
+            line: &table,
+            initial,
+            obstacles: &frame.obstacles,
+            target,
+            vehicle: &self.vehicle,
+            config: &self.config.lattice,
+            lane_width: &lane_width,
+            project: &project,
+        });
+        let planned = lattice.plan()?;
+        let surcharge = self.surcharge(frame, is_preferred);
+        let cost = match planned.outcome {
+            lattice::Outcome::Found(pair) => pair.cost,
+            lattice::Outcome::Backup(_) => BACKUP_COST,
+            lattice::Outcome::LastResort(..) => LAST_RESORT_COST,
+        };
+        Some(OfLine {
+            place,
+            cost: cost + surcharge,
+            stop: stop(&lattice, &planned, frame, &target),
+            planned,
+            table,
+            s,
+        })
+    }
+
+    /// What a line costs for not being the one that is wanted.
+    fn surcharge(&self, frame: &Frame, is_preferred: bool) -> f64 {
+        let config = &self.config.lattice;
+        match frame.command {
+            _ if is_preferred => 0.0,
+            Command::ChangeLane(_) => config.cost_unheeded_command,
+            _ => config.cost_non_priority_reference_line,
+        }
+    }
+}
+
+/// The own lane, as a bound would be labelled.
+const OWN_LANE: Label = Label::Regular {
+    borrow: Borrow::None,
+    lane: LaneType::Own,
+};
+
+/// How fast the car may drive along a line, and where it has to stop.
+fn target(frame: &Frame, line: &ReferenceLine, s: f64, v: f64) -> PlanningTarget {
+    let end = line.length() - LINE_END;
+    let place = match frame.command {
+        Command::PullOver(place) => line.to_frenet(place).s,
+        Command::EmergencyPullOver => s + v * v / (2.0 * BEND_ACCELERATION),
+        Command::Cruise | Command::ChangeLane(_) => end,
+    };
+    PlanningTarget {
+        cruise_speed: cruise_speed(line, s).min(frame.cruise_speed),
+        stop_s: Some(place.min(end)),
+    }
+}
+
+/// The motion along a line at its exact foot.
+fn initial_state(line: &ReferenceLine, start: &StartPoint) -> Option<FrenetMotion> {
+    let at = line.to_frenet(start.pose.position());
+    let a = if start.v < STANDS {
+        start.a.max(0.0)
+    } else {
+        start.a
+    };
+    lattice::foot_on(line, at.s).to_frenet(&PlaneMotion {
+        pose: start.pose,
+        kappa: start.kappa,
+        v: start.v,
+        a,
+    })
+}
+
+/// The highest speed from which all limits ahead can be kept with easy braking, m/s.
+fn cruise_speed(line: &ReferenceLine, s: f64) -> f64 {
+    let samples = line.samples();
+    let here = samples.partition_point(|sample| sample.s <= s).saturating_sub(1);
+    let ahead = samples[here..]
+        .iter()
+        .take_while(|sample| sample.s <= s + LOOK_AHEAD);
+    let reachable = |sample: &crate::reference_line::LineSample| {
+        let bend = (BEND_ACCELERATION / sample.point.kappa.abs().max(STRAIGHT)).sqrt();
+        let limit = sample.speed_limit.unwrap_or(f64::MAX).min(bend);
+        (limit * limit + 2.0 * EASY_BRAKING * (sample.s - s).max(0.0)).sqrt()
+    };
+    ahead.map(reachable).fold(f64::MAX, f64::min)
+}
+
+/// Why the car stops, if it does.
+fn stop(lattice: &Lattice, planned: &Planned, frame: &Frame, target: &PlanningTarget) -> Option<Stop> {
+    let (first, last) = (planned.points.first()?, planned.points.last()?);
+    if last.v > STOPPED {
+        return None;
+    }
+    let begins = |entry: &&lattice::PathTimeEntry| {
+        let StPair { lower, .. } = entry.leaves;
+        (lower > last.s).then_some(lower)
+    };
+    let ahead = lattice
+        .graph
+        .entries
+        .iter()
+        .filter(|entry| begins(entry).is_some());
+    let nearest = ahead.min_by(|a, b| a.leaves.lower.total_cmp(&b.leaves.lower));
+    let before_stop =
+        |entry: &&lattice::PathTimeEntry| target.stop_s.is_none_or(|stop_s| entry.leaves.lower < stop_s);
+    let cause = match nearest.filter(before_stop) {
+        Some(entry) => {
+            let stands = frame
+                .obstacles
+                .iter()
+                .any(|obstacle| obstacle.id == entry.id && obstacle.is_static);
+            if stands {
+                StopCause::Blocked(entry.id)
+            } else {
+                StopCause::Follow(entry.id)
+            }
+        }
+        None if matches!(frame.command, Command::PullOver(_) | Command::EmergencyPullOver) => {
+            StopCause::PullOver
+        }
+        None => StopCause::Destination,
+    };
+    Some(Stop {
+        distance: last.s - first.s,
+        cause,
+    })
+}
+
+/// From what came of the cheapest line to a decision.
+fn conclude(best: &OfLine, start: &StartPoint) -> Decision {
+    let (outcome, speed) = match best.planned.outcome {
+        lattice::Outcome::Found(_) => (Outcome::Normal, None),
+        lattice::Outcome::Backup(_) => (Outcome::SpeedFallback, Some(SpeedRung::LatticeBackup)),
+        lattice::Outcome::LastResort(..) if start.v < STANDS => {
+            (Outcome::Hold, Some(SpeedRung::LatticeLastResort))
+        }
+        lattice::Outcome::LastResort(..) => (Outcome::EmergencyStop, Some(SpeedRung::LatticeLastResort)),
+    };
+    let fallback = speed.map(|speed| Fallback {
+        cause: FallbackCause::NoSampledTrajectory,
+        path: None,
+        speed: Some(speed),
+    });
+    let end = best.planned.points.last().map_or(best.s, |last| last.s);
+    let end = end.max(best.s + LEAST_PATH) + 1.0;
+    Decision {
+        line: best.place,
+        candidates: Vec::new(),
+        chosen: None,
+        path: lattice::path(&best.table, &best.planned.lateral, best.s, end),
+        trajectory: lattice::trajectory(&best.planned.points),
+        stop: best.stop,
+        outcome,
+        fallback,
+        pull_over: None,
+        tasks: Vec::new(),
+    }
+}
