@@ -74,6 +74,7 @@ pub const ENTRIES: &[Entry] = &[
     own!("off_centre_beside_parked"),
     own!("off_centre_start"),
     own!("parked_row"),
+    own!("parked_row_with_oncoming"),
     own!("pull_over_between_parked"),
     own!("pull_over_destination_sweep"),
     own!("pull_over_empty_kerb"),
