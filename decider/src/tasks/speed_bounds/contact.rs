@@ -69,8 +69,7 @@ impl Track {
             let guess = (at + reach.near - self.front).max(floor);
             match self.touch_at(guess, corners) {
                 Some(there) if guess > floor && at - guess > TIGHT => (at, reach) = (guess, there),
-                // What is left before it is shorter than an end is told apart.
-                Some(_) => return (guess - TIGHT).max(floor),
+                Some(_) => return self.walked(corners, guess, floor),
                 None => return self.tightened(corners, guess, at),
             }
         }
@@ -85,11 +84,29 @@ impl Track {
             let guess = (at + reach.far + self.back).min(end);
             match self.touch_at(guess, corners) {
                 Some(there) if guess < end && guess - at > TIGHT => (at, reach) = (guess, there),
-                Some(_) => return (guess + TIGHT).min(end),
+                Some(_) => return self.walked(corners, guess, end),
                 None => return self.tightened(corners, guess, at),
             }
         }
         end
+    }
+
+    /// Where the contact at `from` ends towards `limit`, in growing steps: on a bend straight guesses come to rest before it.
+    fn walked(&self, corners: &[Vec2], from: f64, limit: f64) -> f64 {
+        let (mut touching, mut step) = (from, TIGHT.copysign(limit - from));
+        while (limit - touching).abs() > f64::EPSILON {
+            let next = if step > 0.0 {
+                (touching + step).min(limit)
+            } else {
+                (touching + step).max(limit)
+            };
+            if self.touch_at(next, corners).is_none() {
+                return self.tightened(corners, next, touching);
+            }
+            touching = next;
+            step *= 2.0;
+        }
+        limit
     }
 
     /// The free end of a stretch that holds an end of the contact, when it is at most [`TIGHT`] long.
