@@ -28,7 +28,7 @@ impl Planner {
         Self { config, vehicle }
     }
 
-    /// Decides one tick. Never fails: what goes wrong is an [`Outcome`].
+    /// Decides one tick. Never fails: what goes wrong is an [`crate::decision::Outcome`].
     pub fn decide(&self, frame: &Frame, context: &mut Context) -> Decision {
         self.decide_with_failures(frame, context, &|_| false)
     }
