@@ -26,8 +26,9 @@ const EMERGENCY_JERK: (f64, f64) = (-30.0, 15.0);
 /// Speed and acceleration that count as none at the end of a stop, m/s and m/s².
 const AT_REST: (f64, f64) = (0.02, 0.05);
 
-/// Weight of acceleration and jerk beside that of the way: without it acceleration ripples where the car stands.
-const SMOOTH: f64 = 10.0;
+/// Weight of acceleration and jerk beside that of the way: without it acceleration ripples where the car stands, with
+/// more of it the way grows longer for comfort.
+const SMOOTH: f64 = 0.01;
 
 /// Time between two knots, s, and the shortest horizon, s.
 const STEP: f64 = 0.1;
@@ -55,7 +56,7 @@ pub(super) fn target(plan: &LinePlan, path: &Path) -> f64 {
         .max(0.0)
 }
 
-/// A profile from the start point to a standstill, before `target` if that can be.
+/// A profile from the start point to a standstill, before `target` if that can be, else as hard as the brakes can.
 pub(super) fn stopping(
     start: &StartPoint,
     vehicle: &VehicleParams,
@@ -68,7 +69,6 @@ pub(super) fn stopping(
     let rungs = [
         (SpeedRung::Optimised, JERK, target),
         (SpeedRung::EmergencyJerk, EMERGENCY_JERK, target),
-        (SpeedRung::EmergencyJerk, EMERGENCY_JERK, None),
     ];
     let works = |rung: SpeedRung| !fails(Part::Speed(rung));
     let optimum = rungs
@@ -165,7 +165,8 @@ mod tests {
     }
 
     proptest! {
-        /// With room enough the first rung does, and every profile moves forward to a standstill.
+        /// Every profile moves forward to a standstill; with room enough the first rung does; before a target where that
+        /// can be, and where it cannot, within what the brakes need.
         #[test]
         fn every_stop_ends_at_rest(v in 0.0..30.0, a in -3.0..2.0, room in 0.0..2.0) {
             let vehicle = VehicleParams::default();
@@ -179,6 +180,9 @@ mod tests {
             }
             let gentle = a > -1.0 && v > 1.0 && way > v * 3.0 + v * v / 2.0 / COMFORTABLE;
             prop_assert!(!gentle || rung == SpeedRung::Optimised, "{rung:?} from {v}, {a} within {way} m");
+            // The brakes are on within a third of a second, and let go as softly as they may at the end.
+            let shortest = v * v / 2.0 / -vehicle.max_deceleration + 0.6 * v + 0.5;
+            prop_assert!(last.s <= way.max(shortest), "{rung:?} takes {} m from {v}, {a} for {way}", last.s);
         }
     }
 }
