@@ -9,6 +9,7 @@ use crate::tasks::lane_change::LaneChangeConfig;
 use crate::tasks::path::PathConfig;
 use crate::tasks::path_bounds::PathBoundsConfig;
 use crate::tasks::piecewise_jerk_speed::SpeedConfig;
+use crate::tasks::rule_based_stop::RuleBasedStopConfig;
 use crate::tasks::speed_heuristic::SpeedHeuristicConfig;
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +42,8 @@ pub struct Config {
     pub lane_borrow: LaneBorrowConfig,
     /// Sampling and assessing paths.
     pub path: PathConfig,
+    /// Stops by rule.
+    pub rule_based_stop: RuleBasedStopConfig,
     /// Speed along a path.
     pub speed: SpeedConfig,
     /// Defects of the original in the pipeline and its fallbacks.
@@ -63,6 +66,7 @@ impl Default for Config {
             path_bounds: PathBoundsConfig::default(),
             lane_borrow: LaneBorrowConfig::default(),
             path: PathConfig::default(),
+            rule_based_stop: RuleBasedStopConfig::default(),
             speed: SpeedConfig::default(),
             speed_heuristic: SpeedHeuristicConfig::default(),
             speed_heuristic_lane_change: SpeedHeuristicConfig::lane_change(),
@@ -91,6 +95,7 @@ impl Config {
                 corner_collision_check: true,
                 ..PathConfig::default()
             },
+            rule_based_stop: RuleBasedStopConfig::apollo(),
             quirks: Quirks::apollo(),
             lane_follow: LaneFollowConfig {
                 quirks: LaneFollowQuirks::apollo(),

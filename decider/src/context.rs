@@ -17,6 +17,8 @@ pub struct Context {
     pub bounds: Memory,
     /// Of the lane-borrow decider.
     pub borrow: BorrowState,
+    /// Whether the car has stopped and looked before it went out of its lane (rule-based stop).
+    pub has_looked: bool,
     /// Of the lane-change decider.
     pub lane_change: LaneChangeState,
     /// How long each person on foot has been stopped for (speed decider).

@@ -5,6 +5,7 @@
 
 mod alone;
 mod catalog;
+mod deciders;
 mod evenness;
 mod failing;
 mod order;

@@ -129,6 +129,16 @@ pub enum Rejection {
     TooShort,
 }
 
+impl Rejection {
+    /// The obstacle that it is about, if it is.
+    pub fn obstacle(self) -> Option<ObstacleId> {
+        match self {
+            Self::Touches(id) => Some(id),
+            _ => None,
+        }
+    }
+}
+
 /// Why the car slows down or stands.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stop {
@@ -149,6 +159,10 @@ pub enum StopCause {
     Follow(ObstacleId),
     /// A moving obstacle that crosses or comes towards us.
     Yield(ObstacleId),
+    /// A look at the lane of oncoming traffic before the car goes out into it.
+    SidePass,
+    /// The end of the lane from which lanes must be changed, while the other one is not free.
+    LaneChangeUrgency,
     /// The place to pull over.
     PullOver,
     /// The end of the route.

@@ -16,3 +16,6 @@ pub mod speed_bounds;
 pub mod speed_decider;
 pub mod speed_heuristic;
 pub mod start_point;
+
+#[cfg(test)]
+pub(crate) mod testing;

@@ -55,6 +55,8 @@ pub(crate) fn stop_cause(trace: &Trace, cause: StopCause) -> String {
         StopCause::Blocked(id) => format!("blocked by `{}`", trace.obstacle(id)),
         StopCause::Follow(id) => format!("follows `{}`", trace.obstacle(id)),
         StopCause::Yield(id) => format!("yields to `{}`", trace.obstacle(id)),
+        StopCause::SidePass => "a look into the lane of oncoming traffic".to_owned(),
+        StopCause::LaneChangeUrgency => "the other lane is not free and this one ends".to_owned(),
         StopCause::PullOver => "place to pull over".to_owned(),
         StopCause::Destination => "end of the route".to_owned(),
         StopCause::PathEnd => "end of the path".to_owned(),

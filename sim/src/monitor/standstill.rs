@@ -53,7 +53,7 @@ fn has_reason(sample: &Sample) -> bool {
             .target
             .is_some_and(|target| (target.position - sample.ego().pose.position()).norm() <= PLACE_NEAR),
         StopCause::Destination => is_near_destination(sample, plan.command),
-        StopCause::PathEnd => false,
+        StopCause::PathEnd | StopCause::SidePass | StopCause::LaneChangeUrgency => false,
     }
 }
 

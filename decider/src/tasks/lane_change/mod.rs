@@ -21,6 +21,9 @@ const CLEAR_CYCLES: u32 = 4;
 /// Once the car overlaps the target lane by this much it does not turn back, m.
 const COMMITTED: f64 = 0.3;
 
+/// Difference of speeds that brings another gap beside the car in time, m/s.
+const SEEKING_DIFFERENCE: f64 = 2.0;
+
 /// What the decider remembers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LaneChangeState {
@@ -55,10 +58,25 @@ pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> 
         };
     }
     if target_line(scene.frame).is_some() {
-        // Who keeps the speed of the traffic beside him never meets another gap.
-        scene.cruise_speed *= scene.config.speed.gap_seeking_share;
+        scene.cruise_speed = gap_seeking_speed(scene, &context.lane_change.blocking);
     }
     Ok(())
+}
+
+/// Who keeps the speed of the traffic beside him never meets another gap: a share of the own speed, and clearly less
+/// than that of anyone in the way who drives about as fast.
+fn gap_seeking_speed(scene: &Scene, blocking: &[ObstacleId]) -> f64 {
+    let share = scene.cruise_speed * scene.config.speed.gap_seeking_share;
+    let of_blockers = scene
+        .moving
+        .iter()
+        .filter(|moving| blocking.contains(&moving.id))
+        .map(|moving| moving.boxes[0].s_dot);
+    of_blockers
+        .filter(|v| (v - share).abs() < SEEKING_DIFFERENCE)
+        .map(|v| v - SEEKING_DIFFERENCE)
+        .fold(share, f64::min)
+        .max(0.0)
 }
 
 /// Takes the state on by one tick; whether a change is under way. Only the first line of a tick does that.

@@ -2,6 +2,10 @@
 //! `IsPerceptionBlocked`).
 
 use crate::geometry::{ConvexPolygon, Pose, Vec2, angle};
+use std::f64::consts::TAU;
+
+/// Beams are at least so far apart, rad: more of them would only take time.
+const LEAST_STEP: f64 = 1e-3;
 
 /// A fan of beams cast from the ego.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,8 +44,9 @@ pub fn is_blocked<'a>(eye: Pose, fan: &Fan, bodies: impl IntoIterator<Item = &'a
 fn hidden_angle(eye: Pose, fan: &Fan, body: &ConvexPolygon) -> Option<f64> {
     let right_most = eye.theta - 0.5 * fan.range;
     let mut first_hit = None;
+    let (step, range) = (fan.step.max(LEAST_STEP), fan.range.min(TAU));
     let mut beam = 0.0;
-    while fan.step > 0.0 && beam < fan.range {
+    while fan.step > 0.0 && beam < range {
         let heading = right_most + beam;
         let (sin, cos) = angle::sin_cos(heading);
         let end = eye.position() + Vec2::new(cos, sin) * fan.length;
@@ -51,7 +56,7 @@ fn hidden_angle(eye: Pose, fan: &Fan, body: &ConvexPolygon) -> Option<f64> {
             Some(first) if !is_hit => return Some(angle::difference(heading, first).abs()),
             _ => {}
         }
-        beam += fan.step;
+        beam += step;
     }
     first_hit.map(|first| angle::difference(right_most + fan.range, first).abs())
 }

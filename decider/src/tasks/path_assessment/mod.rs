@@ -11,7 +11,7 @@ pub use order::{in_order, is_borrowed, is_own_lane};
 use crate::context::Context;
 use crate::decision::{Assessment, Rejection};
 use crate::planner::{LinePlan, TaskError};
-use crate::tasks::lane_borrow;
+use crate::tasks::lane_borrow::{self, OwnLane};
 use crate::tasks::path::Path;
 use crate::tasks::path_bounds::{Label, PathBound};
 use crate::tasks::scene::Scene;
@@ -26,8 +26,8 @@ struct Findings {
     taken: Option<usize>,
     /// Place of the own lane's path, if something blocks it.
     blocked_own: Option<usize>,
-    /// Whether the own lane alone would not do, if that was looked at.
-    own_lane_is_blocked: Option<bool>,
+    /// What the own lane alone is good for, if that was looked at.
+    own_lane: Option<OwnLane>,
     /// Whether traffic leaves time to go out of the lane, if that was asked.
     is_free_to_borrow: Option<bool>,
 }
@@ -45,7 +45,7 @@ pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> 
             break;
         }
     }
-    lane_borrow::observe(&mut context.borrow, findings.own_lane_is_blocked);
+    lane_borrow::observe(&mut context.borrow, findings.own_lane);
     lane_borrow::observe_traffic(&mut context.borrow, findings.is_free_to_borrow);
     let place = findings.taken.or(findings.blocked_own).ok_or(TaskError::NoPath)?;
     let Some(Some(Ok(path))) = plan.candidates.get(place) else {
@@ -64,7 +64,7 @@ fn look_at(plan: &mut LinePlan, context: &Context, place: usize, findings: &mut 
         Some(Ok(path)) => path,
         Some(Err(rejection)) => {
             if is_own_lane(bound.label) {
-                findings.own_lane_is_blocked = Some(true);
+                findings.own_lane = Some(OwnLane::Blocked(rejection.obstacle()));
             } else if is_borrowed(bound.label) {
                 plan.borrow_leads_on.get_or_insert(false);
             }
@@ -74,7 +74,10 @@ fn look_at(plan: &mut LinePlan, context: &Context, place: usize, findings: &mut 
     };
     plan.assessments[place] = Assessment::Drivable { reach: path.length() };
     if is_own_lane(bound.label) {
-        findings.own_lane_is_blocked = Some(path.blocked_by.is_some());
+        findings.own_lane = Some(match path.blocked_by {
+            Some(blocker) => OwnLane::Blocked(Some(blocker)),
+            None => OwnLane::Usable,
+        });
     }
     if bound.label == Label::Fallback && findings.blocked_own.is_some() {
         return;

@@ -31,12 +31,8 @@ struct Outing {
 impl Outing {
     fn of(scene: &Scene, path: &Path) -> Option<Self> {
         let half_width = scene.vehicle.half_width();
-        let is_out = |l: f64, s: f64| {
-            let (left, right) = scene.line.lane_width(s).unwrap_or((0.0, 0.0));
-            l + half_width > left || l - half_width < -right
-        };
-        let first = path.points.iter().position(|p| is_out(p.l, p.s))?;
-        let last = path.points.iter().rposition(|p| is_out(p.l, p.s))?;
+        let first = first_outside(scene, path)?;
+        let last = path.points.iter().rposition(|p| is_outside(scene, p))?;
         let out = &path.points[first..=last];
         Some(Self {
             start_s: out[0].s,
@@ -57,6 +53,17 @@ impl Outing {
         }
         speeding_up + (self.length - run_up) / v_end
     }
+}
+
+/// Place of the first point of a path at which the body is outside the own lane.
+fn first_outside(scene: &Scene, path: &Path) -> Option<usize> {
+    path.points.iter().position(|point| is_outside(scene, point))
+}
+
+fn is_outside(scene: &Scene, point: &PathPoint) -> bool {
+    let half_width = scene.vehicle.half_width();
+    let (left, right) = scene.line.lane_width(point.s).unwrap_or((0.0, 0.0));
+    point.l + half_width > left || point.l - half_width < -right
 }
 
 /// The obstacle whose traffic leaves no time to go out of the own lane and back.
@@ -83,11 +90,7 @@ pub(super) fn overhang(scene: &Scene) -> f64 {
 
 /// Whether a path is not blocked, or ends in the own lane: nobody goes out to stand on the wrong side.
 pub(super) fn leads_back(scene: &Scene, path: &Path) -> bool {
-    let half_width = scene.vehicle.half_width();
-    let is_inside = |end: &PathPoint| {
-        let (left, right) = scene.line.lane_width(end.s).unwrap_or((0.0, 0.0));
-        end.l + half_width <= left && end.l - half_width >= -right
-    };
+    let is_inside = |end: &PathPoint| !is_outside(scene, end);
     path.blocked_by.is_none() || path.points.last().is_some_and(is_inside)
 }
 

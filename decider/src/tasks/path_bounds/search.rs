@@ -26,6 +26,9 @@ const STRAIGHTEN: f64 = 2.0;
 /// Way before the place that is looked at for turning in, m: enough for any lane width.
 const TURN_IN_LENGTH: f64 = 20.0;
 
+/// Room to leave to what stands ahead where the middle of the window is too near to turn in to, m.
+const LEAST_ROOM_AHEAD: f64 = 0.5;
+
 /// A place that was found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Found {
@@ -92,10 +95,9 @@ pub(super) fn place<L: LineQuery + ?Sized>(
         } else {
             (anchor, past)
         };
-        let index = stop_index(input, start, end);
-        if !config.quirks.unreachable_place && !is_reachable(bound, input, index, window) {
+        let Some(index) = reachable(bound, input, stop_index(input, start, end), end, window) else {
             continue;
-        }
+        };
         let crosses_junction = || (start..=end).any(|k| line.near_junction(bound[k].s, JUNCTION_RADIUS));
         if !config.quirks.junction_at_anchor_only && crosses_junction() {
             continue;
@@ -179,6 +181,25 @@ fn fits(point: &BoundPoint, station: &Station, input: &Input, window: Window) ->
     };
     road_right - right_side <= input.config.pull_over_road_edge_buffer
         && point.l_max - point.l_min >= window.width
+}
+
+/// The first station from the middle of the window on to which the car can turn in, and which leaves room ahead.
+fn reachable(
+    bound: &[BoundPoint],
+    input: &Input,
+    middle: usize,
+    end: usize,
+    window: Window,
+) -> Option<usize> {
+    if input.config.quirks.unreachable_place {
+        return Some(middle);
+    }
+    let standing = bound[end].s + input.config.obstacle_lon_start_buffer;
+    let leaves_room =
+        |k: usize| bound[k].s + input.vehicle.front_edge_to_center + LEAST_ROOM_AHEAD <= standing;
+    (middle..=end)
+        .take_while(|k| *k == middle || leaves_room(*k))
+        .find(|k| is_reachable(bound, input, *k, window))
 }
 
 /// Whether the car can turn in to the place: two arcs of opposite bend move it aside by `κ d² / 4` over a

@@ -1,5 +1,12 @@
 //! `RULE_BASED_STOP_DECIDER`: where the car stands on its path, whatever moves: the place to pull over, before what
-//! blocks the path, the end of the route, or the end of the path.
+//! blocks the path, the end of the route, or the end of the path; and, where that is asked for, to look before it goes
+//! out of its lane, or to wait for the one that it has to change to.
+
+mod config;
+mod side_pass;
+mod urgency;
+
+pub use config::RuleBasedStopConfig;
 
 use super::path::Path;
 use super::path_bounds::Label;
@@ -19,8 +26,16 @@ const END_TOLERANCE: f64 = 2.0;
 pub fn run(plan: &mut LinePlan, context: &mut Context) -> Result<(), TaskError> {
     let path = plan.path().ok_or(TaskError::NoPath)?;
     let place = pull_over(plan, context, path).filter(|stop| stop.distance <= path.length());
-    plan.wall = Some(place.unwrap_or_else(|| end_of(plan, path)));
+    let end = place.unwrap_or_else(|| end_of(plan, path));
+    let look = side_pass::stop(plan, path, context);
+    let wait = urgency::stop(&plan.scene, path);
+    let walls = [look, wait].into_iter().flatten();
+    plan.wall = Some(walls.fold(end, nearer));
     Ok(())
+}
+
+fn nearer(one: Stop, other: Stop) -> Stop {
+    if other.distance < one.distance { other } else { one }
 }
 
 /// The place to stand at the road's edge: one chosen to stop at needs no gap beyond what its own search has kept.

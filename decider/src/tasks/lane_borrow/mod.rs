@@ -3,9 +3,12 @@
 //! Slow enough, blocked for long enough, and the line may be crossed; then until the own lane has been usable
 //! for a while. Whether traffic leaves time for it is asked when a path is chosen.
 
+mod conditions;
+
 use super::path_bounds::Borrow;
 use super::scene::Scene;
 use crate::context::Context;
+use crate::frame::ObstacleId;
 use crate::planner::{LinePlan, TaskError};
 use crate::reference_line::LineQuery;
 use crate::road::BoundaryType;
@@ -26,6 +29,8 @@ pub struct LaneBorrowConfig {
     pub long_term_blocking_obstacle_cycle_threshold: u32,
     /// How many ticks the own lane must have been usable to give the borrowed one back.
     pub usable_self_lane_cycle_threshold: u32,
+    /// What stands nearer before a junction is not passed, m.
+    pub junction_clearance_distance: f64,
 }
 
 impl Default for LaneBorrowConfig {
@@ -36,6 +41,7 @@ impl Default for LaneBorrowConfig {
             lane_borrow_max_speed_alone: 20.0,
             long_term_blocking_obstacle_cycle_threshold: 3,
             usable_self_lane_cycle_threshold: 6,
+            junction_clearance_distance: 15.0,
         }
     }
 }
@@ -58,6 +64,8 @@ pub struct BorrowState {
     pub blocked_cycles: u32,
     /// Ticks in a row in which the own lane would have done.
     pub usable_cycles: u32,
+    /// What blocked it in the last of them, if that has a name.
+    pub blocker: Option<ObstacleId>,
     /// Ticks in a row in which traffic left time to go out.
     pub free_cycles: u32,
     /// Sides that may be borrowed now, in order of preference; empty: none.
@@ -96,7 +104,8 @@ fn decide(scene: &Scene, state: &mut BorrowState) -> Vec<Borrow> {
         && !scene.is_change_lane
         && scene.frame.lines.len() == 1
         && waited
-        && scene.start.v < max_speed;
+        && scene.start.v < max_speed
+        && conditions::may_be_passed(scene, state);
     if state.sides.is_empty() && may_begin {
         state.sides = crossable_sides(scene);
         state.usable_cycles = 0;
@@ -115,14 +124,25 @@ pub fn is_permitted(scene: &Scene) -> bool {
     scene.config.lane_borrow.allow_lane_borrowing && has_neighbour && !crossable_sides(scene).is_empty()
 }
 
-/// Takes note of whether the own lane alone would have done; `None`: that was not looked at.
-pub fn observe(state: &mut BorrowState, own_lane_is_blocked: Option<bool>) {
-    match own_lane_is_blocked {
-        Some(true) => {
+/// What the own lane alone would have been good for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OwnLane {
+    /// It leads on.
+    Usable,
+    /// It is blocked, by this obstacle if it is one.
+    Blocked(Option<ObstacleId>),
+}
+
+/// Takes note of the own lane; `None`: it was not looked at.
+pub fn observe(state: &mut BorrowState, own_lane: Option<OwnLane>) {
+    match own_lane {
+        Some(OwnLane::Blocked(blocker)) => {
+            state.blocker = blocker;
             state.blocked_cycles += 1;
             state.usable_cycles = 0;
         }
-        Some(false) => {
+        Some(OwnLane::Usable) => {
+            state.blocker = None;
             state.blocked_cycles = 0;
             state.usable_cycles += 1;
         }
