@@ -1,6 +1,6 @@
 //! Guide speeds, costs and the order of pairs.
 
-use super::curves::Ends;
+use super::curves::{Ends, has_knots, has_length};
 use super::samplers::bundle;
 use super::scene::{self, Start, Target};
 use super::{LatticeCase, agrees, all_near, near, number, same};
@@ -78,17 +78,8 @@ pub(super) fn braking(case: &LatticeCase) -> Result<(), String> {
         &json!(segments),
         TOLERANCE,
     )?;
-    near(
-        "length",
-        &case.expected["param_length"],
-        profile.length(),
-        TOLERANCE,
-    )?;
-    for (k, key) in ["knot_t", "knot_s", "knot_v"].into_iter().enumerate() {
-        let knots: Vec<f64> = profile.knots().map(|knot| knot[k]).collect();
-        all_near(key, &case.expected[key], &json!(knots), TOLERANCE)?;
-    }
-    Ok(())
+    has_length(case, profile.length())?;
+    has_knots(case, &profile)
 }
 
 /// What is occupied at the times of the grid.

@@ -85,7 +85,7 @@ pub(super) fn polynomial(case: &LatticeCase) -> Result<(), String> {
         return Err("accepted, but it has no length".to_owned());
     }
     let length = polynomial.length();
-    near("length", &case.expected["param_length"], length, TOLERANCE)?;
+    has_length(case, length)?;
     let short = length < SHORT;
     let count = case.expected["coef"].as_array().map_or(0, Vec::len);
     let coefficients = json!(polynomial.coefficients()[..count]);
@@ -140,12 +140,7 @@ fn column(values: [f64; 4], order: usize) -> f64 {
 pub(super) fn wrapped(case: &LatticeCase) -> Result<(), String> {
     let ends: Ends = case.input()?;
     let (curve, inner) = (ends.curve()?, ends.polynomial());
-    near(
-        "length",
-        &case.expected["param_length"],
-        curve.length(),
-        TOLERANCE,
-    )?;
+    has_length(case, curve.length())?;
     let at = |order: usize, p: f64| match inner {
         Some(inner) if order > 3 && p < curve.length() => inner.derivative(order, p),
         _ => column(curve.at(p), order),
@@ -158,25 +153,29 @@ pub(super) fn deceleration(case: &LatticeCase) -> Result<(), String> {
     let Some(curve) = ConstantDeceleration::new(value("s0"), value("v0"), value("a")) else {
         return same("rejected", &case.fails(), &true);
     };
-    near(
-        "length",
-        &case.expected["param_length"],
-        curve.length(),
-        TOLERANCE,
-    )?;
+    has_length(case, curve.length())?;
     values(case, |order, p| column(curve.at(p), order), |_| TOLERANCE)
 }
 
 pub(super) fn standing(case: &LatticeCase) -> Result<(), String> {
     let value = |key: &str| case.input[key].as_f64().unwrap_or(f64::NAN);
     let curve = Polynomial::constant(value("position"), value("duration"));
-    near(
-        "length",
-        &case.expected["param_length"],
-        curve.length(),
-        TOLERANCE,
-    )?;
+    has_length(case, curve.length())?;
     values(case, |order, p| curve.derivative(order, p), |_| TOLERANCE)
+}
+
+/// Compares the length of a curve.
+pub(super) fn has_length(case: &LatticeCase, length: f64) -> Result<(), String> {
+    near("length", &case.expected["param_length"], length, TOLERANCE)
+}
+
+/// Compares the knots of a profile.
+pub(super) fn has_knots(case: &LatticeCase, profile: &PiecewiseAcceleration) -> Result<(), String> {
+    for (k, key) in ["knot_t", "knot_s", "knot_v"].into_iter().enumerate() {
+        let knots: Vec<f64> = profile.knots().map(|knot| knot[k]).collect();
+        all_near(key, &case.expected[key], &json!(knots), TOLERANCE)?;
+    }
+    Ok(())
 }
 
 pub(super) fn constant_jerk(case: &LatticeCase) -> Result<(), String> {
@@ -188,12 +187,7 @@ pub(super) fn constant_jerk(case: &LatticeCase) -> Result<(), String> {
     if case.fails() {
         return Err("accepted, but it has no length".to_owned());
     }
-    near(
-        "length",
-        &case.expected["param_length"],
-        curve.length(),
-        TOLERANCE,
-    )?;
+    has_length(case, curve.length())?;
     let end = curve.at(curve.length());
     for (key, got) in ["end_position", "end_velocity", "end_acceleration"]
         .into_iter()
@@ -215,12 +209,7 @@ struct Jerks {
 pub(super) fn piecewise_jerk(case: &LatticeCase) -> Result<(), String> {
     let input: Jerks = case.input()?;
     let curve = Piecewise::of_jerks([input.p0, input.v0, input.a0], &input.segments).ok_or("rejected")?;
-    near(
-        "length",
-        &case.expected["param_length"],
-        curve.length(),
-        TOLERANCE,
-    )?;
+    has_length(case, curve.length())?;
     values(case, |order, p| curve.derivative(order, p), |_| TOLERANCE)
 }
 
@@ -242,12 +231,7 @@ pub(super) fn piecewise_quartics(case: &LatticeCase) -> Result<(), String> {
         &json!(ends),
         TOLERANCE,
     )?;
-    near(
-        "length",
-        &case.expected["param_length"],
-        curve.length(),
-        TOLERANCE,
-    )?;
+    has_length(case, curve.length())?;
     values(case, |order, p| curve.derivative(order, p), |_| TOLERANCE)
 }
 
@@ -282,16 +266,8 @@ pub(super) fn piecewise_acceleration(case: &LatticeCase) -> Result<(), String> {
     if case.fails() {
         return Err("accepted, but it goes back or is asked beyond its end".to_owned());
     }
-    near(
-        "length",
-        &case.expected["param_length"],
-        profile.length(),
-        TOLERANCE,
-    )?;
-    for (k, key) in ["knot_t", "knot_s", "knot_v"].into_iter().enumerate() {
-        let knots: Vec<f64> = profile.knots().map(|knot| knot[k]).collect();
-        all_near(key, &case.expected[key], &json!(knots), TOLERANCE)?;
-    }
+    has_length(case, profile.length())?;
+    has_knots(case, &profile)?;
     let accelerations: Vec<f64> = std::iter::once(0.0)
         .chain(input.segments.iter().map(|(a, _)| *a))
         .collect();
