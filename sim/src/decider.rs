@@ -34,15 +34,10 @@ impl AnyPlanner {
         }
     }
 
-    /// The same with parts that fail. The lattice planner has none of them.
-    fn decide_with_failures(
-        &self,
-        frame: &Frame,
-        context: &mut Context,
-        fails: &dyn Fn(planner::Part) -> bool,
-    ) -> Decision {
+    /// The same under a probe. The lattice planner has no parts that it could look at.
+    fn decide_under(&self, frame: &Frame, context: &mut Context, probe: &mut dyn Probe) -> Decision {
         match self {
-            Self::LaneFollow(planner) => planner.decide_with_failures(frame, context, fails),
+            Self::LaneFollow(planner) => planner.decide_under(frame, context, probe),
             Self::Lattice(planner) => planner.decide(frame, context),
         }
     }

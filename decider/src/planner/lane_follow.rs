@@ -1,8 +1,9 @@
 //! The lane-follow planner: one tick from frame to decision.
 
 use super::plan::LinePlan;
+use super::probe::Probe;
 use super::stage;
-use super::task::{Part, TaskName};
+use super::task::TaskName;
 use crate::config::Config;
 use crate::context::{Context, LastPath, LastTrajectory};
 use crate::decision::{Candidate, Decision, FallbackCause, PullOverTarget};
@@ -30,22 +31,17 @@ impl Planner {
 
     /// Decides one tick. Never fails: what goes wrong is an [`crate::decision::Outcome`].
     pub fn decide(&self, frame: &Frame, context: &mut Context) -> Decision {
-        self.decide_with_failures(frame, context, &|_| false)
+        self.decide_under(frame, context, &mut ())
     }
 
-    /// The same, with parts that fail whatever they would find: to see what comes of it.
-    pub fn decide_with_failures(
-        &self,
-        frame: &Frame,
-        context: &mut Context,
-        fails: &dyn Fn(Part) -> bool,
-    ) -> Decision {
+    /// The same under a probe.
+    pub fn decide_under(&self, frame: &Frame, context: &mut Context, probe: &mut dyn Probe) -> Decision {
         let start = start_point(frame, context.last.as_ref());
         let decision = match fallback::context_failure(frame, &start, &self.vehicle) {
             Some(failure) => {
                 fallback::without_context(frame, failure, context, &self.vehicle, &self.config.quirks)
             }
-            None => self.plan(frame, start, context, fails),
+            None => self.plan(frame, start, context, probe),
         };
         context.last = (!decision.trajectory.is_empty()).then(|| LastTrajectory {
             time: frame.time,
@@ -61,17 +57,17 @@ impl Planner {
         frame: &Frame,
         start: StartPoint,
         context: &mut Context,
-        fails: &dyn Fn(Part) -> bool,
+        probe: &mut dyn Probe,
     ) -> Decision {
         context.blind_since = None;
         let mut reports = Vec::new();
         if let Some(target) = lane_change::target_line(frame) {
             let mut plan = LinePlan::new(Scene::new(frame, target, &self.vehicle, &self.config, start));
             let mut memory = context.clone();
-            match stage::run(&self.config.tasks, &mut plan, &mut memory, fails) {
+            match stage::run(&self.config.tasks, &mut plan, &mut memory, probe) {
                 Ok(()) if trajectory::normal(&plan).is_ok() => {
                     *context = memory;
-                    return conclude(plan, context, None, fails);
+                    return conclude(plan, context, None, probe);
                 }
                 result => {
                     context.lane_change = memory.lane_change;
@@ -85,9 +81,9 @@ impl Planner {
         }
         let mut plan = LinePlan::new(Scene::new(frame, 0, &self.vehicle, &self.config, start));
         plan.reports = reports;
-        let result = stage::run(&self.config.tasks, &mut plan, context, fails);
+        let result = stage::run(&self.config.tasks, &mut plan, context, probe);
         let failed = result.err().map(|(task, _)| FallbackCause::Task(task));
-        conclude(plan, context, failed, fails)
+        conclude(plan, context, failed, probe)
     }
 }
 
@@ -96,7 +92,7 @@ fn conclude(
     plan: LinePlan,
     context: &mut Context,
     failed: Option<FallbackCause>,
-    fails: &dyn Fn(Part) -> bool,
+    probe: &dyn Probe,
 ) -> Decision {
     let planned = match failed {
         Some(cause) => Err(cause),
@@ -104,7 +100,7 @@ fn conclude(
     };
     let driven = match planned {
         Ok(trajectory) => Driven::planned(&plan, trajectory),
-        Err(cause) => fallback::along_line(&plan, context.path.as_ref(), cause, fails),
+        Err(cause) => fallback::along_line(&plan, context.path.as_ref(), cause, &|part| probe.fails(part)),
     };
     remember(&plan, context);
     let label = plan.label();

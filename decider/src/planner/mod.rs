@@ -3,6 +3,7 @@
 mod lane_follow;
 mod lattice;
 mod plan;
+mod probe;
 mod report;
 mod stage;
 mod task;
@@ -10,5 +11,6 @@ mod task;
 pub use lane_follow::Planner;
 pub use lattice::LatticePlanner;
 pub use plan::LinePlan;
+pub use probe::Probe;
 pub use stage::LANE_FOLLOW;
 pub use task::{Part, TaskError, TaskName};

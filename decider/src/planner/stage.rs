@@ -1,6 +1,7 @@
 //! The stage: tasks run in the order of a list, up to the first that fails.
 
 use super::plan::LinePlan;
+use super::probe::Probe;
 use super::task::{Part, TaskError, TaskName};
 use crate::context::Context;
 use crate::decision::TaskReport;
@@ -23,7 +24,7 @@ pub const LANE_FOLLOW: [TaskName; 14] = [
     TaskName::Rss,
 ];
 
-/// Runs tasks in order. `fails` says which of them are to fail, whatever they would find.
+/// Runs tasks in order. The probe says which of them are to fail, whatever they would find.
 ///
 /// # Errors
 /// The first task that failed, and why; those after it have not run.
@@ -31,15 +32,17 @@ pub(super) fn run(
     tasks: &[TaskName],
     plan: &mut LinePlan,
     context: &mut Context,
-    fails: &dyn Fn(Part) -> bool,
+    probe: &mut dyn Probe,
 ) -> Result<(), (TaskName, TaskError)> {
     for task in tasks {
         let input = task.input(plan);
-        let result = if fails(Part::Task(*task)) {
+        probe.begins(*task);
+        let result = if probe.fails(Part::Task(*task)) {
             Err(TaskError::OnRequest)
         } else {
             task.run()(plan, context)
         };
+        probe.ended(*task);
         plan.reports.push(TaskReport {
             task: *task,
             input,
