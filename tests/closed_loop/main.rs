@@ -7,6 +7,7 @@ mod alone;
 mod catalog;
 mod evenness;
 mod failing;
+mod lattice;
 mod order;
 mod repeat;
 mod routed;

@@ -48,8 +48,7 @@ impl PlannerChoice {
 pub(crate) fn pair(text: &str) -> Result<[Name; 2], String> {
     let names = text.split(',').map(|name| {
         let name = name.trim();
-        Name::from_str(name, false)
-            .map_err(|_| format!("`{name}`: no such planner; there are {}", known()))
+        Name::from_str(name, false).map_err(|_| format!("`{name}`: no such planner; there are {}", known()))
     });
     match names.collect::<Result<Vec<Name>, String>>()?[..] {
         [first, second] if first == second => {
@@ -62,11 +61,15 @@ pub(crate) fn pair(text: &str) -> Result<[Name; 2], String> {
 
 /// The names of all planners.
 fn known() -> String {
-    let names = Name::value_variants().iter().map(|name| format!("`{}`", name.text()));
+    let names = Name::value_variants()
+        .iter()
+        .map(|name| format!("`{}`", name.text()));
     names.collect::<Vec<String>>().join(" and ")
 }
 
 /// Whether this is the setting that chooses the planner.
 pub(crate) fn is_choice(setting: &str) -> bool {
-    setting.split_once('=').is_some_and(|(key, _)| key.trim() == SETTING)
+    setting
+        .split_once('=')
+        .is_some_and(|(key, _)| key.trim() == SETTING)
 }

@@ -124,4 +124,51 @@ mod tests {
             prop_assert!((signed_rank(&other) - p).abs() < 1e-12);
         }
     }
+
+    /// Darwin's fifteen pairs of crossed and self-fertilised maize, in eighths of an inch (Fisher, *The Design of
+    /// Experiments*): the negative ranks add up to 24, and 1352 of 2¹⁵ ways are as one-sided.
+    #[test]
+    fn darwins_maize_is_the_worked_number() {
+        let differences = [
+            49.0, -67.0, 8.0, 16.0, 6.0, 23.0, 28.0, 41.0, 14.0, 29.0, 56.0, 24.0, 75.0, 60.0, -48.0,
+        ];
+        assert!((signed_rank(&differences) - 1352.0 / 32768.0).abs() < 1e-15);
+    }
+
+    /// As `scipy.stats.wilcoxon(…, zero_method="wilcox", correction=True, method="approx")` has them: 60 differences
+    /// of which some are tied and one more is 0, and 120 of which nearly all are tied.
+    #[test]
+    fn many_differences_give_what_another_program_gives() {
+        let some: Vec<f64> = (0..61).map(|k| f64::from(k * 37 % 61 - 24) / 4.0).collect();
+        let nearly_all: Vec<f64> = (0..120).map(|k| f64::from(k * k * 7 % 23 - 9)).collect();
+        for (differences, expected) in [
+            (some, 0.016_227_476_697_008_532),
+            (nearly_all, 3.105_623_867_426_989e-11),
+        ] {
+            let found = signed_rank(&differences);
+            assert!((found / expected - 1.0).abs() < 1e-9, "{found:e}");
+        }
+    }
+
+    /// Where the exact one ends the other goes on: with one difference more or less, they are nearly the same.
+    #[test]
+    fn the_approximation_meets_the_exact_probability() {
+        let differences = |count: i32| {
+            let sign = |k: i32| if k % 3 == 0 { -1.0 } else { 1.0 };
+            (1..=count).map(|k| sign(k) * f64::from(k)).collect::<Vec<f64>>()
+        };
+        let mut sorted = differences(50);
+        sorted.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let ranks = Ranks::of(&sorted);
+        let (exact, approximate) = (ranks.exact(), ranks.approximate());
+        assert!((approximate / exact - 1.0).abs() < 0.05, "{exact} {approximate}");
+    }
+
+    #[test]
+    fn nothing_that_differs_is_no_evidence() {
+        for differences in [&[][..], &[0.0, -0.0, 0.0], &[f64::NAN]] {
+            assert!((signed_rank(differences) - 1.0).abs() < 1e-15);
+        }
+        assert!((signed_rank(&[3.0]) - 1.0).abs() < 1e-15);
+    }
 }

@@ -228,7 +228,10 @@ mod tests {
     fn heads_are_counted() {
         for (few, all) in [(0, 5), (1, 10), (4, 9), (30, 64), (64, 64)] {
             let found = at_most_heads(few, all);
-            assert!((found - binomial_cdf(few, all, 0.5)).abs() < 1e-12, "{few} of {all}");
+            assert!(
+                (found - binomial_cdf(few, all, 0.5)).abs() < 1e-12,
+                "{few} of {all}"
+            );
         }
         assert!((at_most_heads(1, 10) - 11.0 / 1024.0).abs() < 1e-15);
     }

@@ -46,15 +46,15 @@ impl CycleTimes {
         self.counts.values().sum()
     }
 
-    /// The time that `share` of the cycles did not exceed, to 2 %. Zero where there was no cycle.
+    /// The time that `share` of the cycles did not exceed, to 2 %; of all of them, the longest. Zero without any cycle.
     pub fn quantile(&self, share: f64) -> Duration {
-        let wanted = share * self.count() as f64;
+        let count = self.count();
         let mut seen = 0;
-        for (bucket, count) in &self.counts {
-            seen += count;
-            if seen as f64 >= wanted {
+        for (bucket, in_bucket) in &self.counts {
+            seen += in_bucket;
+            if seen < count && seen as f64 >= share * count as f64 {
                 let middle = libm::exp2((f64::from(*bucket) + 0.5) / PER_OCTAVE);
-                return Duration::from_secs_f64(middle * 1e-9).min(self.longest);
+                return Duration::from_secs_f64(middle * 1e-9);
             }
         }
         self.longest

@@ -33,7 +33,9 @@ impl Sweep {
             "`--junit` with `--compare`: a comparison is no list of cases; `--out DIR` writes a JUnit report per planner"
         );
         if let Some(setting) = self.settings.iter().find(|setting| planner::is_choice(setting)) {
-            anyhow::bail!("`--set {setting}` with `--compare`, which chooses the planners: leave one of them out");
+            anyhow::bail!(
+                "`--set {setting}` with `--compare`, which chooses the planners: leave one of them out"
+            );
         }
         Ok(())
     }

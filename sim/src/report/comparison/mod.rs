@@ -19,6 +19,7 @@ use crate::verdict::Ending;
 use outcomes::{Fourfold, OutcomeRow};
 use quantities::QuantityRow;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// Chance of calling any difference significant where there is none.
 const ALPHA: f64 = 0.05;
@@ -106,17 +107,24 @@ impl Comparison {
         pairs_of(&self.reports)
     }
 
-    /// Pairs of which only the run of `side` (0 or 1) passed, the worst end of the other first.
+    /// Pairs of which only the run of `side` (0 or 1) passed: the worst end of the other first, and every scenario once
+    /// before any is there twice.
     fn passed_by_only(&self, side: usize) -> Vec<Pair<'_>> {
         let other = 1 - side;
-        let mut found: Vec<Pair> = self
-            .pairs()
-            .filter(is_judged)
+        let judged = self.pairs().filter(is_judged);
+        let mut seen = BTreeMap::new();
+        let mut found: Vec<(Harm, usize, Pair)> = judged
             .filter(|pair| pair[side].passed() && !pair[other].passed())
+            .map(|pair| {
+                let harm = harm(pair[other]);
+                let before = seen.entry((harm, &pair[other].scenario)).or_insert(0);
+                *before += 1;
+                (harm, *before, pair)
+            })
             .collect();
-        // A stable sort: of equal harm, by scenario and seed.
-        found.sort_by_key(|pair| harm(pair[other]));
-        found
+        // A stable sort: of equals, by scenario and seed.
+        found.sort_by_key(|(harm, before, _)| (*harm, *before));
+        found.into_iter().map(|(_, _, pair)| pair).collect()
     }
 
     /// How the judged pairs of each scenario passed, by the scenarios' names.

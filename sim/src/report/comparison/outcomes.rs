@@ -1,4 +1,5 @@
-//! What a run can have or lack, counted over pairs. Names are those of the metrics of a verdict, where there is one.
+//! What a run can have or lack, counted over pairs. Names are close to those of the metrics of a verdict; an outcome is to
+//! be within the threshold.
 
 use super::super::SweepRow;
 use super::{Pair, Test};
@@ -16,15 +17,17 @@ const OUTCOMES: [(&str, Has); 10] = [
     ("no_at_fault_collision", |row| row.passes("no_at_fault_collision")),
     ("no_collision", |row| row.passes("no_collision")),
     ("drivable_area", |row| row.passes("drivable_area")),
-    ("standstill", |row| row.passes("standstill")),
+    ("no_standstill", |row| row.passes("standstill")),
     ("goal_reached", |row| {
         row.has_goal.then(|| row.ending() == Some(Ending::GoalReached))
     }),
     ("pull_over_success", |row| {
         row.metric("pull_over_success").map(|share| share >= 1.0)
     }),
-    ("ttc", |row| row.passes("ttc")),
-    ("comfort", |row| row.metric("comfort").map(|worst| worst <= 1.0)),
+    ("ttc_kept", |row| row.passes("ttc")),
+    ("comfort_kept", |row| {
+        row.metric("comfort").map(|worst| worst <= 1.0)
+    }),
 ];
 
 /// How many pairs have it under both, one or neither.

@@ -46,9 +46,13 @@ const fn quantity(
 
 /// The quantities in the order of the table.
 const QUANTITIES: [Quantity; 16] = [
-    quantity("progress", "", Better::Larger, |row| row.metric("progress")),
+    quantity("progress", "", Better::Larger, |row| {
+        metric_to_goal(row, "progress")
+    }),
     quantity("time_to_goal", "s", Better::Smaller, time_to_goal),
-    quantity("nuplan_cls", "", Better::Larger, |row| row.metric("nuplan_cls")),
+    quantity("nuplan_cls", "", Better::Larger, |row| {
+        metric_to_goal(row, "nuplan_cls")
+    }),
     quantity("comfort", "", Better::Smaller, |row| row.metric("comfort")),
     quantity("lon_acceleration", "m/s²", Better::Smaller, lon_acceleration),
     quantity("lon_jerk", "m/s³", Better::Smaller, |row| row.metric("lon_jerk")),
@@ -79,6 +83,11 @@ const QUANTITIES: [Quantity; 16] = [
         row.metric("pull_over_edge_gap").map(f64::abs)
     }),
 ];
+
+/// A metric that rewards getting on, where that is what was asked: who fails to pull over gets on best.
+fn metric_to_goal(row: &SweepRow, name: &str) -> Option<f64> {
+    row.metric(name).filter(|_| row.has_goal)
+}
 
 /// How long the way to the goal took, s.
 fn time_to_goal(row: &SweepRow) -> Option<f64> {

@@ -46,11 +46,7 @@ fn head(comparison: &Comparison, first: &SweepReport) -> String {
         let total: u64 = rejected.values().sum();
         let reasons = rejected.iter().map(|(reason, n)| format!("{n} {reason}"));
         let reasons: Vec<String> = reasons.collect();
-        let _ = write!(
-            text,
-            "; {total} draws rejected for both ({})",
-            reasons.join(", ")
-        );
+        let _ = write!(text, "; {total} draws rejected for both ({})", reasons.join(", "));
     }
     text + "\n\n"
 }
@@ -200,7 +196,8 @@ fn scenarios(comparison: &Comparison) -> String {
     if !found {
         return format!("\nno seed passes under {a} or {b} alone\n");
     }
-    grid.lines().fold("\n".to_owned(), |text, line| text + &line + "\n")
+    grid.lines()
+        .fold("\n".to_owned(), |text, line| text + &line + "\n")
 }
 
 /// The seeds that only one passes: the worst of the other first, each with the command that runs it.
@@ -212,7 +209,7 @@ fn passed_by_only(comparison: &Comparison, side: usize, colour: Colour) -> Strin
     }
     let mut text = format!("\n{} seeds pass under {name} and not under {other}", pairs.len());
     if pairs.len() > PAIRS_SHOWN {
-        let _ = write!(text, "; the first {PAIRS_SHOWN}, the worst before the others");
+        let _ = write!(text, "; {PAIRS_SHOWN} of them, the worst first");
     }
     text.push_str(":\n");
     for pair in pairs.into_iter().take(PAIRS_SHOWN) {
