@@ -51,8 +51,10 @@ pub(crate) struct Sweep {
     settings: Vec<String>,
     #[command(flatten)]
     planner: PlannerChoice,
-    /// Run the same seeds under two planners, as in `lane_follow,lattice`, and test what differs. The exit code is 1
-    /// only for what neither may do: a collision at fault, a decider that fails, a run that cannot be made.
+    /// Run the same seeds under two planners, as in `lane_follow,lattice`, and test what differs.
+    ///
+    /// Which is better is a question and no gate: the exit code is 1 only if either has a collision at fault or a decider
+    /// that fails, or a run could not be made.
     #[arg(long, value_name = "FIRST,SECOND", value_parser = planner::pair, conflicts_with = "planner")]
     compare: Option<[planner::Name; 2]>,
 }

@@ -123,7 +123,9 @@ fn percentage(share: f64) -> String {
 
 fn grid(scenarios: &[ScenarioSummary], colour: Colour) -> String {
     let mut grid = Grid::new(HEADINGS);
-    scenarios.iter().for_each(|summary| grid.row(cells(summary)));
+    for summary in scenarios {
+        grid.row(cells(summary));
+    }
     let mut lines = grid.lines();
     let mut text = lines.next().unwrap_or_default() + "\n";
     for (line, summary) in lines.zip(scenarios) {

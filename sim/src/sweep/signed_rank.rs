@@ -87,13 +87,13 @@ mod tests {
     use proptest::prelude::*;
 
     /// Share of all 2ⁿ ways to sign the differences whose sum of positive ranks is at least as far from its mean. Ranks
-    /// by counting: smaller ones, and half of the equal ones.
+    /// by counting what is smaller and what is not larger.
     fn by_enumeration(differences: &[f64]) -> f64 {
-        let differing: Vec<f64> = differences.iter().copied().filter(|d| *d != 0.0).collect();
+        let differing: Vec<f64> = differences.iter().copied().filter(|d| d.abs() > 0.0).collect();
         let rank = |d: &f64| {
             let smaller = differing.iter().filter(|o| o.abs() < d.abs()).count() as f64;
-            let equal = differing.iter().filter(|o| o.abs() == d.abs()).count() as f64;
-            smaller + 0.5 * (equal + 1.0)
+            let not_larger = differing.iter().filter(|o| o.abs() <= d.abs()).count() as f64;
+            0.5 * (smaller + not_larger + 1.0)
         };
         let ranks: Vec<f64> = differing.iter().map(rank).collect();
         let mean = 0.5 * ranks.iter().sum::<f64>();

@@ -1,6 +1,6 @@
 //! The comparison as JSON: nothing in it depends on the machine or the moment.
 
-use super::super::{ReportError, RunResult};
+use super::super::{ReportError, RunResult, SweepReport};
 use super::outcomes::{Fourfold, OutcomeRow};
 use super::quantities::QuantityRow;
 use super::{ALPHA, Comparison, Harm, Pair, harm, is_judged};
@@ -68,7 +68,7 @@ pub fn comparison_to_json(comparison: &Comparison) -> Result<String, ReportError
     let document = Document {
         format: FORMAT,
         planners: &comparison.names,
-        digests: reports.each_ref().map(|report| report.digest()),
+        digests: reports.each_ref().map(SweepReport::digest),
         safe: comparison.is_safe(),
         pairs: reports[0].rows().len(),
         broken: broken.map(broken_pair).collect(),

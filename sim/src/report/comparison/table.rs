@@ -85,8 +85,7 @@ fn quantities(comparison: &Comparison, colour: Colour) -> String {
         "pairs".to_owned(),
         a.clone(),
         b.clone(),
-        format!("{a} better"),
-        format!("{b} better"),
+        "better".to_owned(),
         "difference".to_owned(),
         "95 % range".to_owned(),
         "p".to_owned(),
@@ -98,7 +97,7 @@ fn quantities(comparison: &Comparison, colour: Colour) -> String {
     marked(&grid, comparison.quantities.iter().map(|row| row.test), colour)
 }
 
-fn cells(row: &QuantityRow) -> [String; 10] {
+fn cells(row: &QuantityRow) -> [String; 9] {
     let name = match row.unit {
         "" => row.name.to_owned(),
         unit => format!("{}, {unit}", row.name),
@@ -109,8 +108,7 @@ fn cells(row: &QuantityRow) -> [String; 10] {
         row.pairs.to_string(),
         number(row.medians[0]),
         number(row.medians[1]),
-        row.first_better.to_string(),
-        row.second_better.to_string(),
+        format!("{} : {}", row.first_better, row.second_better),
         signed(row.difference.value),
         range.map_or(NOTHING.to_owned(), |(low, high)| {
             format!("{} to {}", signed(low), signed(high))
@@ -160,8 +158,9 @@ fn legend(comparison: &Comparison) -> String {
     let [a, b] = &comparison.names;
     format!(
         "* significant at {ALPHA} after Holm's correction for {} tests. p: McNemar's exact test of the pairs that differ;\n  \
-         Wilcoxon's signed ranks, equal pairs left out. difference: median over pairs of {b} minus {a}, with the range\n  \
-         in which the true one lies at 95 % confidence. A metric counts where both runs measured it.\n",
+         Wilcoxon's signed ranks, equal pairs left out. better: pairs in which {a} : {b} is better.\n  \
+         difference: median over pairs of {b} minus {a}, with the range of the true one at 95 % confidence.\n  \
+         A metric counts where both runs measured it.\n",
         comparison.tests()
     )
 }
@@ -233,14 +232,14 @@ fn passed_by_only(comparison: &Comparison, side: usize, colour: Colour) -> Strin
 /// What fails a comparison.
 fn safety(comparison: &Comparison, colour: Colour) -> String {
     if comparison.is_safe() {
-        let text = "no collision at fault, no decider that failed, no run that could not be made";
+        let text = "no collision at fault, no failed decider, no run that could not be made";
         return format!("\n{}\n", colour.good(text));
     }
     let mut text = "\n".to_owned();
     for (name, report) in comparison.names.iter().zip(&comparison.reports) {
         let count = |kind: Harm| report.rows().iter().filter(|row| harm(row) == kind).count();
         let line = format!(
-            "{name}: {} collisions at fault, {} deciders failed, {} runs could not be made",
+            "{name}: collisions at fault {}, failed deciders {}, runs that could not be made {}",
             count(Harm::AtFault),
             count(Harm::DeciderFailed),
             count(Harm::Broken)

@@ -171,7 +171,7 @@ fn the_worst_comes_first_and_what_could_not_be_run_is_left_out() {
         "10 seeds pass under old and not under new:",
         "FAILED street 1 seed 9: ",
         "  again: corridor run street --seed 9",
-        "new: 1 collisions at fault, 0 deciders failed, 1 runs could not be made",
+        "new: collisions at fault 1, failed deciders 0, runs that could not be made 1",
         "-0.500 to -0.100",
         "0.002   0.010 *",
     ];
