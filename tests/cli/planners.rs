@@ -154,6 +154,11 @@ fn a_comparison_leaves_both_sweeps_and_itself() {
     assert!(run.out.starts_with(&text), "{text}\n{}", run.out);
     let json = std::fs::read_to_string(folder.path("a/comparison.json")).unwrap();
     for planner in ["lane_follow", "lattice"] {
+        let report = std::fs::read_to_string(folder.path("a").join(planner).join("report.json")).unwrap();
+        assert!(
+            report.contains("\"p99\""),
+            "{planner}: no times of planning cycles"
+        );
         for file in ["report.json", "report.xml", "report.txt", "late-1.trace.zst"] {
             assert!(
                 folder.path("a").join(planner).join(file).is_file(),

@@ -71,6 +71,12 @@ fn its_sweeps_have_one_digest_for_any_number_of_threads() {
         sweep(&plan, &settings(&LATTICE), &owned(&LATTICE), threads, &|_| {}).unwrap()
     };
     let one = report(1);
+    for row in one.rows() {
+        // Every answer was timed, and nothing else.
+        let answers = &row.verdict().unwrap().outcomes;
+        let answers: u32 = answers.iter().map(|(_, ticks)| ticks).sum();
+        assert_eq!(row.cycles.count(), u64::from(answers), "{}", row.scenario);
+    }
     for threads in [2, 3] {
         let other = report(threads);
         assert_eq!(other.digest(), one.digest(), "{threads} threads");

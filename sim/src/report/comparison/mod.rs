@@ -73,6 +73,11 @@ impl Comparison {
     pub fn new(names: [String; 2], pairs: Vec<[SweepRow; 2]>) -> Self {
         let (first, second) = pairs.into_iter().map(|[first, second]| (first, second)).unzip();
         let reports = [SweepReport::new(first), SweepReport::new(second)];
+        let is_pair = |[a, b]: Pair| (&a.scenario, a.seed) == (&b.scenario, b.seed);
+        debug_assert!(
+            pairs_of(&reports).all(is_pair),
+            "a pair is of one scenario and seed"
+        );
         let judged: Vec<Pair> = pairs_of(&reports).filter(is_judged).collect();
         let mut outcomes = outcomes::rows(&judged);
         let mut quantities = quantities::rows(&judged);

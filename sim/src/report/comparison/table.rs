@@ -160,7 +160,7 @@ fn legend(comparison: &Comparison) -> String {
         "* significant at {ALPHA} after Holm's correction for {} tests. p: McNemar's exact test of the pairs that differ;\n  \
          Wilcoxon's signed ranks, equal pairs left out. better: pairs in which {a} : {b} is better.\n  \
          difference: median over pairs of {b} minus {a}, with the range of the true one at 95 % confidence.\n  \
-         A metric counts where both runs measured it.\n",
+         A metric counts where both runs measured it. All this speaks of more seeds of these scenarios, not of others.\n",
         comparison.tests()
     )
 }
