@@ -27,7 +27,7 @@ pub(crate) struct Sweep {
     /// Scenario files, folders of them, catalog names, or `catalog` for all of it.
     #[arg(required = true)]
     scenarios: Vec<String>,
-    /// How many runs in all; scenarios without random numbers are run once.
+    /// How many runs in all, with `--compare` of each planner; scenarios without random numbers are run once.
     #[arg(long, default_value_t = 200, value_parser = value_parser!(u32).range(1..=MOST_RUNS))]
     count: u32,
     /// The first seed.
