@@ -23,6 +23,12 @@ pub trait Sink {
     /// # Errors
     /// [`TraceError`] when it cannot be kept; the run stops then.
     fn tick(&mut self, tick: &TickRecord) -> Result<(), TraceError>;
+
+    /// Hears that the decider is about to be asked. The loop knows no clock; whoever times the decider does it here.
+    fn deciding(&mut self) {}
+
+    /// Hears that it has answered.
+    fn decided(&mut self) {}
 }
 
 /// A sink that keeps nothing.
@@ -73,7 +79,7 @@ impl ClosedLoop {
     /// [`TraceError`] of the sink.
     pub fn run(mut self, sink: &mut dyn Sink) -> Result<Verdict, TraceError> {
         while self.monitor.is_over().is_none() {
-            let Some(tick) = self.tick() else { break };
+            let Some(tick) = self.tick(sink) else { break };
             sink.tick(&tick)?;
         }
         let digest = format!("{:016x}", self.digest.finish());
@@ -84,9 +90,12 @@ impl ClosedLoop {
     }
 
     /// Advances the loop by one planning period. `None`: the decider gave no answer.
-    fn tick(&mut self) -> Option<TickRecord> {
+    fn tick(&mut self, sink: &mut dyn Sink) -> Option<TickRecord> {
         let frame = self.observe();
-        let decision = match self.decider.decide(&frame) {
+        sink.deciding();
+        let answer = self.decider.decide(&frame);
+        sink.decided();
+        let decision = match answer {
             Ok(decision) => decision,
             Err(reason) => {
                 self.monitor.decider_failed(frame.time, &reason);

@@ -9,6 +9,7 @@ mod endings;
 mod inputs;
 mod maps;
 mod outputs;
+mod planners;
 mod program;
 mod recorded;
 mod settings;

@@ -8,6 +8,7 @@ mod catalog;
 mod deciders;
 mod evenness;
 mod failing;
+mod lattice;
 mod order;
 mod repeat;
 mod routed;

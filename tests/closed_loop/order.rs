@@ -19,14 +19,23 @@ impl Sink for Motion {
     }
 }
 
-fn drive(scenario: &Scenario) -> (Vec<EgoState>, Ending) {
+fn drive(scenario: &Scenario, planner: &str) -> (Vec<EgoState>, Ending) {
     let mut motion = Motion::default();
-    let verdict = run_into(scenario, &settings(&[]), &mut motion).unwrap();
+    let verdict = run_into(scenario, &settings(&[planner]), &mut motion).unwrap();
     (motion.0, verdict.ending)
 }
 
 #[test]
 fn obstacles_in_another_order_change_nothing() {
+    check("decider.planner=lane_follow");
+}
+
+#[test]
+fn nor_do_they_under_the_lattice_planner() {
+    check("decider.planner=lattice");
+}
+
+fn check(planner: &str) {
     let names = [
         "nudge_several",
         "parked_row",
@@ -39,7 +48,7 @@ fn obstacles_in_another_order_change_nothing() {
         let listed = scenario(name);
         let count = listed.obstacles.len();
         assert!(count > 1, "{name}");
-        let expected = drive(&listed);
+        let expected = drive(&listed, planner);
         for turn in [1, count / 2] {
             let mut turned = listed.clone();
             turned.obstacles.reverse();
@@ -48,7 +57,7 @@ fn obstacles_in_another_order_change_nothing() {
                 obstacle.id = ObstacleId(id);
             }
             assert!(
-                drive(&turned) == expected,
+                drive(&turned, planner) == expected,
                 "{name}, reversed and turned by {turn}"
             );
         }

@@ -1,13 +1,14 @@
 //! `corridor sweep`: many runs, one report.
 
-use super::planner::PlannerChoice;
+mod compare;
+
+use super::planner::{self, PlannerChoice};
 use super::{Gate, output, source};
 use clap::{Args, value_parser};
 use corridor_scenarios::MapCache;
 use corridor_sim::report::{Colour, SweepReport, to_json, to_junit, to_table};
 use corridor_sim::run;
-use corridor_sim::settings::Settings;
-use corridor_sim::sweep::{Plan, find, sweep};
+use corridor_sim::sweep::{Plan, Variant, find, sweep};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -26,7 +27,7 @@ pub(crate) struct Sweep {
     /// Scenario files, folders of them, catalog names, or `catalog` for all of it.
     #[arg(required = true)]
     scenarios: Vec<String>,
-    /// How many runs in all; scenarios without random numbers are run once.
+    /// How many runs in all, with `--compare` of each planner; scenarios without random numbers are run once.
     #[arg(long, default_value_t = 200, value_parser = value_parser!(u32).range(1..=MOST_RUNS))]
     count: u32,
     /// The first seed.
@@ -35,13 +36,14 @@ pub(crate) struct Sweep {
     /// Threads; 0: one per core. Does not change results.
     #[arg(long, default_value_t = 0, value_parser = value_parser!(u16).range(0..=MOST_THREADS))]
     jobs: u16,
-    /// Write a `JUnit` report.
+    /// Write a `JUnit` report. Not of a comparison, which is no list of cases.
     #[arg(long, value_name = "FILE")]
     junit: Option<PathBuf>,
-    /// Write a JSON report.
+    /// Write a JSON report; with `--compare`, of the comparison.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Write both reports, the table and traces of failing runs into this folder.
+    /// Write both reports, the table and traces of failing runs into this folder; with `--compare`, the comparison, and
+    /// below it a folder of these for each planner.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Change a setting of all runs.
@@ -49,31 +51,31 @@ pub(crate) struct Sweep {
     settings: Vec<String>,
     #[command(flatten)]
     planner: PlannerChoice,
+    /// Run the same seeds under two planners, as in `lane_follow,lattice`, and test what differs.
+    ///
+    /// Which is better is a question and no gate: the exit code is 1 only if either has a collision at fault or a decider
+    /// that fails, or a run could not be made.
+    #[arg(long, value_name = "FIRST,SECOND", value_parser = planner::pair, conflicts_with = "planner")]
+    compare: Option<[planner::Name; 2]>,
 }
 
 impl Sweep {
-    /// The settings that are not the defaults.
-    fn overrides(&self) -> Vec<String> {
-        self.planner.with(&self.settings)
+    pub(crate) fn execute(&self) -> anyhow::Result<Gate> {
+        match self.compare {
+            Some(planners) => self.compare(planners),
+            None => self.sweep(),
+        }
     }
 
-    pub(crate) fn execute(&self) -> anyhow::Result<Gate> {
-        let settings = Settings::with(&self.overrides())?;
-        let selection = source::select(&self.scenarios, &MapCache::new())?;
-        for skipped in &selection.skipped {
-            output::note(&format!("skipped {skipped}"));
-        }
-        anyhow::ensure!(
-            !selection.families.is_empty(),
-            "nothing to run: every scenario was skipped"
-        );
+    fn sweep(&self) -> anyhow::Result<Gate> {
+        let variant = Variant::new("sweep", self.planner.with(&self.settings))?;
+        let plan = self.plan()?;
         self.check_outputs()?;
-        let plan = Plan::new(selection.families, self.count as usize, self.seed);
         let bar = progress_bar(plan.jobs().len());
         let report = sweep(
             &plan,
-            &settings,
-            &self.overrides(),
+            &variant.settings,
+            &variant.overrides,
             usize::from(self.jobs),
             &|row| {
                 bar.inc(1);
@@ -84,12 +86,25 @@ impl Sweep {
         )?;
         bar.finish_and_clear();
         output::print(&to_table(&report, Colour::from_env()));
-        self.write(&plan, &settings, &report)?;
+        self.write(&plan, &variant, &report)?;
         Ok(if report.passed() {
             Gate::Passed
         } else {
             Gate::Failed
         })
+    }
+
+    /// The runs to make, of the scenarios that can be run on this machine.
+    fn plan(&self) -> anyhow::Result<Plan> {
+        let selection = source::select(&self.scenarios, &MapCache::new())?;
+        for skipped in &selection.skipped {
+            output::note(&format!("skipped {skipped}"));
+        }
+        anyhow::ensure!(
+            !selection.families.is_empty(),
+            "nothing to run: every scenario was skipped"
+        );
+        Ok(Plan::new(selection.families, self.count as usize, self.seed))
     }
 
     /// What cannot be written must be known before hours of work.
@@ -100,42 +115,49 @@ impl Sweep {
         self.out.as_deref().map_or(Ok(()), output::make_folder)
     }
 
-    fn write(&self, plan: &Plan, settings: &Settings, report: &SweepReport) -> anyhow::Result<()> {
+    fn write(&self, plan: &Plan, variant: &Variant, report: &SweepReport) -> anyhow::Result<()> {
         if let Some(path) = &self.json {
             output::write(path, &to_json(report)?)?;
         }
         if let Some(path) = &self.junit {
             output::write(path, &to_junit(report)?)?;
         }
-        let Some(folder) = &self.out else { return Ok(()) };
-        output::write(&folder.join("report.json"), &to_json(report)?)?;
-        output::write(&folder.join("report.xml"), &to_junit(report)?)?;
-        output::write(&folder.join("report.txt"), &to_table(report, Colour::Never))?;
-        self.keep_traces(folder, plan, settings, report)
-    }
-
-    /// Runs the first failures again, with traces.
-    fn keep_traces(
-        &self,
-        folder: &Path,
-        plan: &Plan,
-        settings: &Settings,
-        report: &SweepReport,
-    ) -> anyhow::Result<()> {
-        for row in report.failures().take(TRACES_KEPT) {
-            let Some(Ok(drawn)) = find(plan, row).map(|family| family.draw(row.seed)) else {
-                continue;
-            };
-            let path = folder.join(format!(
-                "{}-{}.trace.zst",
-                row.scenario.replace(['/', '\\'], "_"),
-                row.seed
-            ));
-            let family = find(plan, row).expect("it was found a line ago");
-            run::run_traced(family, &drawn.scenario, &self.overrides(), settings, &path)?;
+        match &self.out {
+            Some(folder) => fill(folder, plan, variant, report),
+            None => Ok(()),
         }
-        Ok(())
     }
+}
+
+/// Writes all there is to tell of a sweep into a folder.
+fn fill(folder: &Path, plan: &Plan, variant: &Variant, report: &SweepReport) -> anyhow::Result<()> {
+    output::write(&folder.join("report.json"), &to_json(report)?)?;
+    output::write(&folder.join("report.xml"), &to_junit(report)?)?;
+    output::write(&folder.join("report.txt"), &to_table(report, Colour::Never))?;
+    keep_traces(folder, plan, variant, report)
+}
+
+/// Runs the first failures again, with traces.
+fn keep_traces(folder: &Path, plan: &Plan, variant: &Variant, report: &SweepReport) -> anyhow::Result<()> {
+    for row in report.failures().take(TRACES_KEPT) {
+        let Some(Ok(drawn)) = find(plan, row).map(|family| family.draw(row.seed)) else {
+            continue;
+        };
+        let path = folder.join(format!(
+            "{}-{}.trace.zst",
+            row.scenario.replace(['/', '\\'], "_"),
+            row.seed
+        ));
+        let family = find(plan, row).expect("it was found a line ago");
+        run::run_traced(
+            family,
+            &drawn.scenario,
+            &variant.overrides,
+            &variant.settings,
+            &path,
+        )?;
+    }
+    Ok(())
 }
 
 fn progress_bar(length: usize) -> ProgressBar {

@@ -38,7 +38,17 @@ struct Row<'a> {
 #[derive(Serialize)]
 struct Timing<'a> {
     total: f64,
+    /// How long the decider took for an answer.
+    cycle: CycleTiming,
     rows: Vec<(&'a str, u64, f64)>,
+}
+
+#[derive(Serialize)]
+struct CycleTiming {
+    count: u64,
+    median: f64,
+    p99: f64,
+    longest: f64,
 }
 
 /// The report as JSON text with a line break at its end.
@@ -47,6 +57,7 @@ struct Timing<'a> {
 /// [`ReportError::Json`] when the writer fails.
 pub fn to_json(report: &SweepReport) -> Result<String, ReportError> {
     let seconds = |row: &SweepRow| row.wall_time.as_secs_f64();
+    let cycles = report.cycles();
     let document = Document {
         format: FORMAT,
         passed: report.passed(),
@@ -58,6 +69,12 @@ pub fn to_json(report: &SweepReport) -> Result<String, ReportError> {
         rows: report.rows().iter().map(row).collect(),
         timing: Timing {
             total: report.wall_time().as_secs_f64(),
+            cycle: CycleTiming {
+                count: cycles.count(),
+                median: cycles.quantile(0.5).as_secs_f64(),
+                p99: cycles.quantile(0.99).as_secs_f64(),
+                longest: cycles.longest().as_secs_f64(),
+            },
             rows: report
                 .rows()
                 .iter()

@@ -2,17 +2,21 @@
 //!
 //! A report is a pure function of its rows. Wall times are kept beside what is hashed or compared, never in it.
 
+mod comparison;
 mod digest;
+mod grid;
 mod json;
 mod junit;
 mod summary;
 mod table;
 
+pub use comparison::{Comparison, comparison_to_json, comparison_to_table};
 pub use json::to_json;
 pub use junit::to_junit;
 pub use summary::{PullOvers, ScenarioSummary};
 pub use table::{Colour, to_table};
 
+use crate::sweep::CycleTimes;
 use crate::verdict::{Ending, Verdict};
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -38,12 +42,16 @@ pub struct SweepRow {
     pub seed: u64,
     /// What came of it.
     pub result: RunResult,
+    /// Whether the scenario has a goal to get to.
+    pub has_goal: bool,
     /// How often the drawn scenario was rejected before this one, by reason.
     pub rejected: BTreeMap<String, u32>,
     /// The command that runs it again.
     pub replay: String,
     /// How long it took on this machine. Never hashed.
     pub wall_time: Duration,
+    /// How long the decider took for its answers on this machine. Never hashed.
+    pub cycles: CycleTimes,
 }
 
 /// What came of a run.
@@ -73,6 +81,12 @@ impl SweepRow {
     pub fn metric(&self, name: &str) -> Option<f64> {
         let metrics = &self.verdict()?.metrics;
         metrics.iter().find(|metric| metric.name == name)?.value
+    }
+
+    /// Whether a metric is good enough; `None` where there is none of this name.
+    fn passes(&self, name: &str) -> Option<bool> {
+        let metrics = &self.verdict()?.metrics;
+        Some(metrics.iter().find(|metric| metric.name == name)?.pass)
     }
 
     /// Why it failed, in one sentence; `None` when it passed.
@@ -135,6 +149,13 @@ impl SweepReport {
     /// One hash over all runs, in order of scenario and seed: equal for any number of threads and on any machine.
     pub fn digest(&self) -> String {
         digest::of(&self.rows)
+    }
+
+    /// The wall times of all answers of the decider.
+    pub fn cycles(&self) -> CycleTimes {
+        let mut sum = CycleTimes::default();
+        self.rows.iter().for_each(|row| sum.merge(&row.cycles));
+        sum
     }
 
     /// The sum of the runs' wall times: what one thread would have taken.

@@ -1,5 +1,6 @@
 //! The report as a table for a terminal. Everything it says it says in words; colour only repeats it.
 
+use super::grid::Grid;
 use super::{RunResult, ScenarioSummary, SweepReport, SweepRow};
 use std::fmt::Write;
 use std::io::IsTerminal;
@@ -9,6 +10,7 @@ const FAILURES_SHOWN: usize = 20;
 
 const RED: &str = "\u{1b}[31m";
 const GREEN: &str = "\u{1b}[32m";
+const BOLD: &str = "\u{1b}[1m";
 const PLAIN: &str = "\u{1b}[0m";
 
 /// Whether to colour.
@@ -29,6 +31,18 @@ impl Colour {
         } else {
             Self::Always
         }
+    }
+
+    pub(super) fn good(self, text: &str) -> String {
+        self.paint(GREEN, text)
+    }
+
+    pub(super) fn bad(self, text: &str) -> String {
+        self.paint(RED, text)
+    }
+
+    pub(super) fn bold(self, text: &str) -> String {
+        self.paint(BOLD, text)
     }
 
     fn paint(self, code: &str, text: &str) -> String {
@@ -108,37 +122,21 @@ fn percentage(share: f64) -> String {
 }
 
 fn grid(scenarios: &[ScenarioSummary], colour: Colour) -> String {
-    let rows: Vec<[String; 12]> = scenarios.iter().map(cells).collect();
-    let width = |column: usize| {
-        let longest = rows.iter().map(|row| row[column].chars().count()).max();
-        longest.unwrap_or(0).max(HEADINGS[column].len())
-    };
-    let widths: Vec<usize> = (0..HEADINGS.len()).map(width).collect();
-    let mut text = line(HEADINGS.iter().copied(), &widths);
-    for (row, summary) in rows.iter().zip(scenarios) {
+    let mut grid = Grid::new(HEADINGS);
+    for summary in scenarios {
+        grid.row(cells(summary));
+    }
+    let mut lines = grid.lines();
+    let mut text = lines.next().unwrap_or_default() + "\n";
+    for (line, summary) in lines.zip(scenarios) {
         let code = if summary.passed == summary.runs {
             GREEN
         } else {
             RED
         };
-        let line = line(row.iter().map(String::as_str), &widths);
-        text.push_str(&colour.paint(code, line.trim_end_matches('\n')));
+        text.push_str(&colour.paint(code, &line));
         text.push('\n');
     }
-    text
-}
-
-fn line<'a>(cells: impl Iterator<Item = &'a str>, widths: &[usize]) -> String {
-    let mut text = String::new();
-    for (k, (cell, width)) in cells.zip(widths).enumerate() {
-        // Writing to a string cannot fail.
-        let _ = if k == 0 {
-            write!(text, "{cell:<width$}")
-        } else {
-            write!(text, "  {cell:>width$}")
-        };
-    }
-    text.push('\n');
     text
 }
 

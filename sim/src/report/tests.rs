@@ -45,9 +45,11 @@ fn row(scenario: &str, seed: u64, collisions: f64) -> SweepRow {
         scenario: scenario.to_owned(),
         seed,
         result: RunResult::Judged(Box::new(verdict)),
+        has_goal: true,
         rejected: BTreeMap::from([("overlap at the start".to_owned(), 2)]),
         replay: format!("corridor run {scenario} --seed {seed}"),
         wall_time: Duration::from_millis(10 * seed),
+        cycles: CycleTimes::default(),
     }
 }
 

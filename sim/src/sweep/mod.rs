@@ -1,19 +1,26 @@
 //! Sweeps: many runs at once, and what can be said of them.
 
+mod compare;
+pub mod paired;
 mod plan;
+pub mod signed_rank;
 pub mod statistics;
+mod stopwatch;
 
+pub use compare::{Variant, compare};
 pub use plan::{Job, Plan};
+pub use stopwatch::CycleTimes;
 
 use crate::decider;
 use crate::report::{RunResult, SweepReport, SweepRow};
-use crate::run;
+use crate::run::run_into;
 use crate::settings::Settings;
 use corridor_scenarios::{Drawn, Family};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
+use stopwatch::Stopwatch;
 
 /// Why a sweep cannot start.
 #[derive(Debug, thiserror::Error)]
@@ -41,56 +48,74 @@ pub fn sweep(
     threads: usize,
     done: &(dyn Fn(&SweepRow) + Sync),
 ) -> Result<SweepReport, SweepError> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|source| SweepError::Threads {
-            jobs: threads,
-            source,
-        })?;
     let run_job = |job: &Job| {
         let row = row(plan, *job, settings, overrides);
         done(&row);
         row
     };
-    Ok(SweepReport::new(
-        pool.install(|| plan.jobs().par_iter().map(run_job).collect()),
-    ))
+    let rows = pool(threads)?.install(|| plan.jobs().par_iter().map(run_job).collect());
+    Ok(SweepReport::new(rows))
+}
+
+fn pool(threads: usize) -> Result<rayon::ThreadPool, SweepError> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|source| SweepError::Threads {
+            jobs: threads,
+            source,
+        })
 }
 
 fn row(plan: &Plan, job: Job, settings: &Settings, overrides: &[String]) -> SweepRow {
     let (family, given) = plan.family(job);
-    let (result, rejected, wall_time) = match family.draw(job.seed) {
-        Ok(drawn) => judged(&drawn, settings),
-        Err(error) => (
-            RunResult::Broken(error.to_string()),
-            BTreeMap::new(),
-            Duration::ZERO,
-        ),
-    };
-    SweepRow {
+    let row = SweepRow {
         scenario: family.name().to_owned(),
         seed: job.seed,
-        result,
-        rejected,
+        result: RunResult::Broken(String::new()),
+        has_goal: false,
+        rejected: BTreeMap::new(),
         replay: replay_command(given, job.seed, overrides),
-        wall_time,
+        wall_time: Duration::ZERO,
+        cycles: CycleTimes::default(),
+    };
+    match family.draw(job.seed) {
+        Ok(drawn) => judged(row, &drawn, settings),
+        Err(error) => SweepRow {
+            result: RunResult::Broken(error.to_string()),
+            ..row
+        },
     }
 }
 
-fn judged(drawn: &Drawn, settings: &Settings) -> (RunResult, BTreeMap<String, u32>, Duration) {
+/// The row with what came of its run.
+fn judged(row: SweepRow, drawn: &Drawn, settings: &Settings) -> SweepRow {
     let mut rejected = BTreeMap::new();
     for rejection in &drawn.rejected {
         *rejected.entry(rejection.reason().to_owned()).or_insert(0) += 1;
     }
+    let mut watch = Stopwatch::default();
     // A decider that panics is judged; a panic of anything else breaks its own run and no other.
-    let run = || catch_unwind(AssertUnwindSafe(|| run::run(&drawn.scenario, settings)));
+    let run = || {
+        catch_unwind(AssertUnwindSafe(|| {
+            run_into(&drawn.scenario, settings, &mut watch)
+        }))
+    };
     let (verdict, wall_time) = timed(run);
-    let result = verdict.map_or_else(
-        |panic| RunResult::Broken(format!("the testbed panicked: {}", decider::said(&*panic))),
-        |verdict| RunResult::Judged(Box::new(verdict)),
-    );
-    (result, rejected, wall_time)
+    let result = match verdict {
+        Ok(Ok(verdict)) => RunResult::Judged(Box::new(verdict)),
+        Ok(Err(error)) => RunResult::Broken(error.to_string()),
+        Err(panic) => RunResult::Broken(format!("the testbed panicked: {}", decider::said(&*panic))),
+    };
+    let expect = &drawn.scenario.expect;
+    SweepRow {
+        result,
+        has_goal: expect.goal().is_some() || expect.goal_region().is_some(),
+        rejected,
+        wall_time,
+        cycles: watch.times,
+        ..row
+    }
 }
 
 #[expect(

@@ -75,16 +75,13 @@ pub fn percentile(values: &[f64], p: f64) -> Option<f64> {
     Some(sorted[below] + (sorted[above] - sorted[below]) * (place - below as f64))
 }
 
-/// Probability that two deciders that are equally good differ at least so much: `McNemar`'s exact two-sided test on
-/// paired seeds, from the number of seeds that only the one and only the other passes.
-pub fn mcnemar(only_first: u64, only_second: u64) -> f64 {
-    let (few, all) = (only_first.min(only_second), only_first + only_second);
-    if all == few * 2 {
+/// Probability of at most `few` heads in `all` throws of a fair coin.
+pub(super) fn at_most_heads(few: u64, all: u64) -> f64 {
+    if few >= all {
         return 1.0;
     }
-    // P(X <= few) for `all` fair coins is the upper tail of the beta distribution.
-    let at_most = regularised_beta((all - few) as f64, few as f64 + 1.0, 0.5);
-    (2.0 * at_most).min(1.0)
+    // The lower tail of the binomial distribution is the upper one of a beta distribution.
+    regularised_beta((all - few) as f64, few as f64 + 1.0, 0.5)
 }
 
 /// The regularised incomplete beta function `I_x(a, b)`, for `a, b > 0`.
@@ -228,10 +225,14 @@ mod tests {
     }
 
     #[test]
-    fn mcnemar_counts_coins() {
-        assert!((mcnemar(0, 5) - 2.0 / 32.0).abs() < 1e-12);
-        assert!((mcnemar(1, 9) - 2.0 * 11.0 / 1024.0).abs() < 1e-12);
-        assert!((mcnemar(9, 1) - mcnemar(1, 9)).abs() < 1e-15);
-        assert!((mcnemar(0, 0) - 1.0).abs() < 1e-15 && (mcnemar(4, 4) - 1.0).abs() < 1e-15);
+    fn heads_are_counted() {
+        for (few, all) in [(0, 5), (1, 10), (4, 9), (30, 64), (64, 64)] {
+            let found = at_most_heads(few, all);
+            assert!(
+                (found - binomial_cdf(few, all, 0.5)).abs() < 1e-12,
+                "{few} of {all}"
+            );
+        }
+        assert!((at_most_heads(1, 10) - 11.0 / 1024.0).abs() < 1e-15);
     }
 }
