@@ -58,7 +58,7 @@ impl ClosedLoop {
             world: World::new(scenario, &settings.physics),
             agents: Agents::new(scenario),
             route: Route::new(scenario, &settings.decider.lane_follow),
-            decider: Decider::new(scenario, settings),
+            decider: Decider::new(scenario.vehicle, settings),
             tracker: Tracker::new(scenario.vehicle, tracking),
             monitor: Monitor::new(scenario),
             story: Story::new(scenario),

@@ -7,9 +7,10 @@ use corridor_decider::config::PlannerKind;
 use corridor_decider::context::Context;
 use corridor_decider::decision::Decision;
 use corridor_decider::frame::Frame;
-use corridor_decider::planner::{self, LatticePlanner, Planner};
-use corridor_scenarios::Scenario;
+use corridor_decider::planner::{self, LatticePlanner, LatticeSurvey, Planner};
+use corridor_decider::vehicle::VehicleParams;
 use std::any::Any;
+use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// One of the planners.
@@ -19,8 +20,8 @@ enum AnyPlanner {
 }
 
 impl AnyPlanner {
-    fn new(scenario: &Scenario, settings: &Settings) -> Self {
-        let (config, vehicle) = (settings.decider.clone(), scenario.vehicle);
+    fn new(vehicle: VehicleParams, settings: &Settings) -> Self {
+        let config = settings.decider.clone();
         match config.planner {
             PlannerKind::LaneFollow => Self::LaneFollow(Planner::new(config, vehicle)),
             PlannerKind::Lattice => Self::Lattice(LatticePlanner::new(config, vehicle)),
@@ -57,9 +58,9 @@ pub(crate) struct Decider {
 }
 
 impl Decider {
-    pub(crate) fn new(scenario: &Scenario, settings: &Settings) -> Self {
+    pub(crate) fn new(vehicle: VehicleParams, settings: &Settings) -> Self {
         Self {
-            planner: AnyPlanner::new(scenario, settings),
+            planner: AnyPlanner::new(vehicle, settings),
             context: Context::default(),
             fault: settings.fault,
             failures: settings.failures.clone(),
@@ -70,26 +71,42 @@ impl Decider {
     pub(crate) fn decide(&mut self, frame: &Frame) -> Result<Decision, String> {
         let fault = self.fault;
         let decide = || match fault {
-            Fault::Mirrored => self.decide_failing(&mirrored(frame)),
             Fault::Panic if frame.tick == SUDDEN => panic!("a planted fault"),
             Fault::Nan if frame.tick >= SUDDEN => not_a_number(self.decide_failing(frame)),
-            Fault::None | Fault::Panic | Fault::Nan => self.decide_failing(frame),
+            Fault::None | Fault::Mirrored | Fault::Panic | Fault::Nan => self.decide_failing(frame),
         };
         catch_unwind(AssertUnwindSafe(decide)).map_err(|panic| said(&*panic).to_owned())
     }
 
+    /// All that is going to be weighed when this frame is decided; the lattice planner only.
+    pub(crate) fn survey(&self, frame: &Frame) -> Option<LatticeSurvey> {
+        match &self.planner {
+            AnyPlanner::LaneFollow(_) => None,
+            AnyPlanner::Lattice(planner) => planner.survey(&self.seen(frame), self.context.last.as_ref()),
+        }
+    }
+
     /// Decides with the parts failing that are to fail now.
     fn decide_failing(&mut self, frame: &Frame) -> Decision {
+        let seen = self.seen(frame);
         let parts: Vec<Part> = faults::failing(&self.failures, frame.time).collect();
         if parts.is_empty() {
-            return self.planner.decide(frame, &mut self.context);
+            return self.planner.decide(&seen, &mut self.context);
         }
-        let frame = parts
-            .iter()
-            .fold(frame.clone(), |frame, part| faults::without(frame, *part));
         let fails = |part| parts.iter().any(|failing| failing.is(part));
         self.planner
-            .decide_with_failures(&frame, &mut self.context, &fails)
+            .decide_with_failures(&seen, &mut self.context, &fails)
+    }
+
+    /// The frame as the planner sees it, behind the fault and the failures.
+    fn seen<'a>(&self, frame: &'a Frame) -> Cow<'a, Frame> {
+        let seen = match self.fault {
+            Fault::Mirrored => Cow::Owned(mirrored(frame)),
+            Fault::None | Fault::Panic | Fault::Nan => Cow::Borrowed(frame),
+        };
+        faults::failing(&self.failures, frame.time).fold(seen, |frame, part| {
+            Cow::Owned(faults::without(frame.into_owned(), part))
+        })
     }
 }
 

@@ -8,7 +8,7 @@ mod stage;
 mod task;
 
 pub use lane_follow::Planner;
-pub use lattice::LatticePlanner;
+pub use lattice::{LatticePlanner, LatticeSurvey, LineCost};
 pub use plan::LinePlan;
 pub use stage::LANE_FOLLOW;
 pub use task::{Part, TaskError, TaskName};

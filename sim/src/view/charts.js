@@ -77,7 +77,7 @@ function paintLabelBand(context, x, width) {
   context.fillStyle = colour("soft");
   context.textAlign = "left";
   context.textBaseline = "middle";
-  context.fillText("chosen bound", width - CHART.right + 8, top + height / 2);
+  context.fillText(run.lattice ? "fallback" : "chosen bound", width - CHART.right + 8, top + height / 2);
 }
 
 function paintLimits(context, row, y, left, right) {
