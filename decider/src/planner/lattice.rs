@@ -151,10 +151,12 @@ impl LatticePlanner {
         }
         let lines = self.plan_lines(frame, &start);
         let best = cheapest(&lines)?;
-        Some(LatticeSurvey {
-            lines: lines.iter().map(|line| line.cost).collect(),
-            place: best.place,
-            survey: self.with_lattice(frame, best.place, &best.ground, |lattice| lattice.survey())?,
+        self.with_lattice(frame, best.place, &best.ground, |lattice| {
+            Some(LatticeSurvey {
+                lines: lines.iter().map(|line| line.cost).collect(),
+                place: best.place,
+                survey: lattice.survey()?,
+            })
         })
     }
 

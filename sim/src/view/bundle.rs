@@ -171,14 +171,14 @@ fn faults(pairs: &[Assessed]) -> (String, Vec<Rejection>) {
         })
     };
     let numbers: Vec<i64> = (pairs.iter())
-        .map(|(_, rejection)| rejection.map_or(0, &mut number) as i64)
+        .map(|(_, rejection)| rejection.map_or(0, |rejection| whole(number(rejection))))
         .collect();
     (letters(numbers), known)
 }
 
 /// Where curves are written.
 fn places(curves: impl Iterator<Item = String>, pools: &mut Pools) -> String {
-    letters(differences(curves.map(|curve| pools.curves.place(curve) as i64)))
+    letters(differences(curves.map(|curve| whole(pools.curves.place(curve)))))
 }
 
 fn kind(kind: Kind) -> char {
@@ -227,4 +227,8 @@ fn hundredths(value: f64) -> i64 {
 #[expect(clippy::cast_possible_truncation, reason = "it is kept within what fits")]
 fn rounded(value: f64) -> i64 {
     value.clamp(-FARTHEST, FARTHEST).round() as i64
+}
+
+fn whole(place: usize) -> i64 {
+    i64::try_from(place).expect("there are fewer places than numbers")
 }

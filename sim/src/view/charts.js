@@ -174,7 +174,7 @@ function paintReadout(context, row, x, y, top, height, right) {
   context.fillText(row.name, right + 8, top);
   context.fillStyle = colour(bad ? "bad" : "text");
   context.font = `600 ${FONT}`;
-  context.fillText(value === null && row.absent ? row.absent() : `${fixed(value)} ${row.unit}`, right + 8, top + 13);
+  context.fillText(value === null ? row.absent?.() ?? "none" : `${fixed(value)} ${row.unit}`, right + 8, top + 13);
   context.font = FONT;
   const note = row.note?.(value, state.k);
   if (note && value !== null && height >= 38) {

@@ -231,8 +231,8 @@ function paintEgoAndPath(context, map, tick) {
   context.strokeStyle = colour("ego");
   context.lineWidth = 1.8;
   context.stroke();
-  context.lineWidth = 2.2;
-  context.strokeStyle = colour("path");
+  context.lineWidth = run.lattice ? 3.4 : 2.2;
+  context.strokeStyle = colour(drivenInk(tick));
   trace(context, tick.path, map, 4, 0);
   context.stroke();
   context.beginPath();

@@ -115,6 +115,9 @@ function strokeCurve(context, points, map, curve, width = 1.5) {
   context.globalAlpha = 1;
 }
 
+/// The colour of what is driven: braking is not what was sampled.
+const drivenInk = ({ bundle }) => (bundle?.braking ? (bundle.braking.against === null ? "warn" : "bad") : "path");
+
 /// What is driven, and what the pointer is on.
 function strokeStrong(context, points, map, ink, width, dash = []) {
   trace(context, points, map);

@@ -68,7 +68,7 @@ const textOr = (place) => (place === null ? "none" : run.texts[place].replaceAll
 /// What each task was given and what it found, in the order in which they ran, up to the one that failed.
 function taskRow([name, input, output, error]) {
   return element("div", { class: `task${error ? " failed" : ""}` }, element("i", {}, error ? "✗" : "✓"), element("b", {}, words(name)),
-    element("span", {}, output ? `${input} → ${output}` : input, error ? element("div", { class: "fail" }, `failed: ${error}`) : null));
+    element("span", {}, output ? `${input} → ${output}` : input, error ? element("div", { class: "fail" }, error) : null));
 }
 
 function paintTasks() {
@@ -76,7 +76,9 @@ function paintTasks() {
   const tick = ticks[state.k];
   const tasks = tick.tasks.map((place) => run.tasks[place]);
   const fallback = tick.fallback ? [element("h3", {}, "Fallback"),
-    describe([["cause", textOr(tick.fallback[0])], ["path", tick.fallback[1] === null ? "this tick's own, if any" : textOr(tick.fallback[1])], ["speed", textOr(tick.fallback[2])]])] : [];
+    describe([["cause", textOr(tick.fallback[0])], ["path", tick.fallback[1] === null && tick.path.length ? "of this tick" : textOr(tick.fallback[1])], ["speed", textOr(tick.fallback[2])]])] : [];
+  // What failed comes before what was weighed.
+  byId("tasks").className = fallback.length ? "failed" : "";
   byId("tasks").replaceChildren(...(tasks.length ? [element("h3", {}, "Tasks"), ...tasks.map(taskRow)] : []), ...fallback);
 }
 followers.push(paintTasks);
@@ -85,13 +87,10 @@ function paintDecision() {
   if (!ticks.length) return;
   const tick = ticks[state.k];
   const chosen = tick.candidates[tick.chosen];
-  if (run.lattice) {
-    byId("decision").replaceChildren(situation(tick));
-    return;
-  }
-  byId("decision").replaceChildren(
-    situation(tick),
-    element("h3", {}, "Candidates"),
+  byId("situation").replaceChildren(situation(tick));
+  if (run.lattice) return;
+  byId("bounds").replaceChildren(
+    ...(tick.candidates.length ? [element("h3", {}, "Candidates")] : []),
     ...tick.candidates.map((candidate, k) => candidateBox(candidate, k === tick.chosen)),
     ...(chosen ? [element("h3", {}, `Limits of ${run.labels[chosen.label]}`), limitTable(chosen)] : [element("h3", {}, "No bound chosen")]),
   );

@@ -118,7 +118,7 @@ const egoOutline = (context, map, x, y, theta) =>
   outline(context, map, x, y, theta, run.vehicle.front, run.vehicle.back, run.vehicle.half_width);
 
 function paintPlan(context, map, tick) {
-  context.strokeStyle = colour("path");
+  context.strokeStyle = colour(drivenInk(tick));
   context.lineWidth = 1;
   context.globalAlpha = 0.45;
   let next = GHOSTS_EVERY, lastX = Infinity, lastY = Infinity;

@@ -35,9 +35,10 @@ function paintStAxes(context, map, height) {
     context.fillText(fixed(s, stations.decimals), ST.left - 5, map(0, s)[1]);
   }
   context.textAlign = "center";
-  for (const t of roundSteps(0, ST_HORIZON, map.w / 44).values) {
+  const times = roundSteps(0, ST_HORIZON, map.w / 44);
+  for (const t of times.values) {
     line(map(t, map.low), map(t, map.high));
-    context.fillText(fixed(t, 0), map(t, 0)[0], height - ST.bottom + 9);
+    context.fillText(fixed(t, times.decimals), map(t, 0)[0], height - ST.bottom + 9);
   }
   context.fillText("time from now [s]", ST.left + map.w / 2, height - 8);
   context.save();
@@ -99,9 +100,8 @@ function paintStopStation(context, map) {
 
 function paintAlong(context, map) {
   for (const curve of inOrder(weighed.longitudinal)) strokeCurve(context, curve.points, map, curve, 1.3);
-  const { driven, braking } = weighed;
-  if (driven) strokeStrong(context, driven.along.points, map, "path", 3.4);
-  if (braking) strokeStrong(context, braking.points, map, braking.against === null ? "warn" : "bad", 3.4);
+  const driven = weighed.driven?.along ?? weighed.braking;
+  if (driven) strokeStrong(context, driven.points, map, drivenInk(weighed), 3.4);
   const pair = pointedPair();
   const along = pair?.along ?? weighed.longitudinal[pointed.longitudinal ?? held.longitudinal];
   if (along) strokeStrong(context, along.points, map, "text", 2.2, pair && !pair.fault ? [] : [6, 3]);

@@ -70,7 +70,7 @@ function paintWeighed() {
   if (key === told) return;
   told = key;
   box.replaceChildren(element("h3", {}, "Pairs"), ...(known
-    ? [drivenText(), costTable(known.driven, other), element("p", { class: "soft pointed" }, pointedText(other)), ...lineRows(known.bundle), fateTable()]
+    ? [drivenText(), ...(known.driven || other ? [costTable(known.driven, other)] : []), element("p", { class: "soft pointed" }, pointedText(other)), ...lineRows(known.bundle), fateTable()]
     : [element("p", { class: "soft" }, unweighedText())]));
 }
 
@@ -82,8 +82,8 @@ function buildScale() {
     const key = (text, style) => element("span", { class: "key" }, element("i", { class: "stroke", style }), text);
     const scale = known?.span ? [element("span", { class: "key" }, `cost ${fixed(known.span[0], 1)}`,
       element("i", { class: "scale", style: `background:linear-gradient(90deg in oklab,${stops})` }), fixed(known.span[1], 1))] : [];
-    const braking = known?.braking ? [key(known.braking.against === null ? "backup" : "last resort", `border-top:3px solid ${colour(known.braking.against === null ? "warn" : "bad")}`)] : [];
-    byId("scale").replaceChildren(...scale, ...(known?.driven ? [key("driven", `border-top:3px solid ${colour("path")}`)] : braking),
+    const braking = known?.braking && (known.braking.against === null ? "backup" : "last resort");
+    byId("scale").replaceChildren(...scale, key(braking ?? "driven", `border-top:3px solid ${colour(drivenInk(ticks[state.k]))}`),
       key("rejected", `border-top:1px dashed ${colour("rejected")}`));
   });
 }
