@@ -80,10 +80,11 @@ impl Decider {
 
     /// All that is going to be weighed when this frame is decided; the lattice planner only.
     pub(crate) fn survey(&self, frame: &Frame) -> Option<LatticeSurvey> {
-        match &self.planner {
+        let survey = || match &self.planner {
             AnyPlanner::LaneFollow(_) => None,
             AnyPlanner::Lattice(planner) => planner.survey(&self.seen(frame), self.context.last.as_ref()),
-        }
+        };
+        catch_unwind(AssertUnwindSafe(survey)).ok().flatten()
     }
 
     /// Decides with the parts failing that are to fail now.

@@ -18,8 +18,8 @@ const SAME: f64 = 1e-3;
 pub(super) struct Again<'a> {
     trace: &'a Trace,
     decider: Decider,
-    /// Whether every tick so far came out as it was recorded.
-    is_same: bool,
+    /// Place of the first tick that came out differently.
+    differs_from: Option<usize>,
 }
 
 impl<'a> Again<'a> {
@@ -29,39 +29,38 @@ impl<'a> Again<'a> {
         (settings.decider.planner == PlannerKind::Lattice).then(|| Self {
             trace,
             decider: Decider::new(trace.header.vehicle, &settings),
-            is_same: true,
+            differs_from: None,
         })
     }
 
-    /// Whether every tick so far came out as it was recorded. Where one does not (another build wrote the trace) nobody
-    /// knows what was weighed then and later.
-    pub(super) fn is_same(&self) -> bool {
-        self.is_same
+    /// Place of the first tick that did not come out as it was recorded: another build wrote the trace, and nobody knows
+    /// what was weighed then and later.
+    pub(super) fn differs_from(&self) -> Option<usize> {
+        self.differs_from
     }
 
     /// What was weighed in the tick at place `k`. To be asked for every tick in order.
     pub(super) fn survey(&mut self, k: usize) -> Option<LatticeSurvey> {
-        if !self.is_same {
+        if self.differs_from.is_some() {
             return None;
         }
         let frame = self.trace.frame(k)?;
         let survey = self.decider.survey(&frame);
         let decision = self.decider.decide(&frame);
-        self.is_same = decision.is_ok_and(|decision| is_same(&decision, &self.trace.ticks[k].decision));
-        survey.filter(|_| self.is_same)
+        if decision.is_ok_and(|decision| is_same(&decision, &self.trace.ticks[k].decision)) {
+            return survey;
+        }
+        self.differs_from = Some(k);
+        None
     }
 }
 
 fn is_same(now: &Decision, then: &Decision) -> bool {
-    let has_same_rung =
-        |a: &Decision, b: &Decision| (a.line, a.outcome, a.fallback) == (b.line, b.outcome, b.fallback);
-    has_same_rung(now, then)
+    let rung = |decision: &Decision| (decision.line, decision.outcome, decision.fallback);
+    let mut points = now.trajectory.iter().zip(&then.trajectory);
+    rung(now) == rung(then)
         && now.trajectory.len() == then.trajectory.len()
-        && now
-            .trajectory
-            .iter()
-            .zip(&then.trajectory)
-            .all(|(a, b)| is_near(a, b))
+        && points.all(|(a, b)| is_near(a, b))
 }
 
 fn is_near(a: &TrajectoryPoint, b: &TrajectoryPoint) -> bool {

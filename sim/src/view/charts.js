@@ -203,7 +203,7 @@ function paintTimeAxis(context, x, width, height) {
     context.fillText(fixed(t, steps.decimals), x(t), height - CHART.bottom + 9);
   }
   context.textAlign = "left";
-  context.fillText("time [s]", width - CHART.right + 8, height - CHART.bottom + 9);
+  context.fillText("time [s]", width - CHART.right + 16, height - CHART.bottom + 9);
 }
 
 function paintCursor(context, at, height, ink, width) {

@@ -60,8 +60,8 @@ struct Vehicle {
 /// How far what was weighed is known.
 #[derive(Serialize)]
 struct LatticeRun {
-    /// Whether every tick came out again as it was recorded.
-    same: bool,
+    /// Place of the first tick that did not come out again as it was recorded.
+    differs_from: Option<usize>,
 }
 
 #[derive(Serialize)]
@@ -116,7 +116,7 @@ impl<'a> Page<'a> {
             tasks: raw(pools.tasks),
             curves: pools.curves.into_texts(),
             lattice: again.map(|again| LatticeRun {
-                same: again.is_same(),
+                differs_from: again.differs_from(),
             }),
             labels: pools.labels.into_texts(),
             texts: pools.texts.into_texts(),

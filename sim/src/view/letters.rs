@@ -65,10 +65,7 @@ pub(super) mod tests {
 
     #[test]
     fn small_numbers_take_one_letter() {
-        assert_eq!(
-            letters([0, -1, 1, 22, -22, 23]),
-            "#$%PO#".to_owned() + &letters([23])[1..]
-        );
+        assert_eq!(letters([0, -1, 1, 22, -22, 23]), "#$%POR$");
         assert_eq!(letters(-22..=22).len(), 45);
         let all: String = (0..90).map(letter).collect();
         assert!(

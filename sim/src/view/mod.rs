@@ -1,7 +1,9 @@
 //! One run as one self-contained HTML page: no server, no network, no build step.
 //!
 //! The page shows the road from above, the Frenet picture with every candidate bound and its causes, speed and
-//! its companions over time, the events, the verdict and the decision of each tick, with one slider for all.
+//! its companions over time, the events, the verdict, the decision and the tasks of each tick, with one slider for all.
+//! A run of the lattice planner has in place of bounds every sampled curve, across the line and over time, in the colour
+//! of its cost (`lattice.js`, `st.js`, `weighed.js`).
 //! `page.html` is its skeleton; the data go in as JSON, thinned to what a screen can show.
 
 mod again;

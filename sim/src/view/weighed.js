@@ -3,8 +3,9 @@
 
 function unweighedText() {
   if (!ticks.length) return "";
-  if (run.lattice && !run.lattice.same && ticks[state.k].bundle === undefined && !ticks[state.k].fallback) {
-    return "decided again, the run comes out differently from here on: what was weighed is not known";
+  const { differs_from: from } = run.lattice;
+  if (from !== null && state.k >= from) {
+    return `decided again, the run comes out differently from ${fixed(timeOf(from), 1)} s on: what was weighed is not known`;
   }
   return "no curves were sampled";
 }

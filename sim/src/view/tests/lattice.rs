@@ -1,6 +1,7 @@
 //! What the page tells of the lattice planner is what that planner weighed, and the decision is what came of it.
 
 use super::data;
+use crate::explain::words;
 use crate::run::run_recorded;
 use crate::settings::Settings;
 use crate::trace::{Trace, TraceWriter, synthetic};
@@ -93,7 +94,7 @@ fn what_is_weighed_again_is_what_was_decided() {
                 assert_eq!(pair.cost.to_bits(), costs.sum().to_bits());
             }
         }
-        assert!(again.is_same() && found > 50);
+        assert!(again.differs_from().is_none() && found > 50);
     }
 }
 
@@ -196,14 +197,14 @@ fn a_trace_from_a_file_comes_out_the_same_until_it_is_another() {
     drop(writer);
     let mut trace = Trace::open(&file).unwrap();
     std::fs::remove_file(&file).unwrap();
-    assert_eq!(
-        data(&page(&trace))["lattice"]["same"],
-        true,
+    let same = data(&page(&trace));
+    assert!(
+        same["lattice"]["differs_from"].is_null(),
         "rounding is not a difference"
     );
     trace.ticks[25].decision.trajectory[10].v += 0.01;
     let data = data(&page(&trace));
-    assert_eq!(data["lattice"]["same"], false);
+    assert_eq!(data["lattice"]["differs_from"], 25);
     for (k, tick) in array(&data["ticks"]).iter().enumerate() {
         assert_eq!(tick.get("bundle").is_some(), k < 25, "tick {k}");
     }
@@ -244,15 +245,20 @@ fn tasks_are_told_in_their_order_up_to_the_one_that_failed() {
         };
         failed += 1;
         assert_eq!((names.last(), array(told[3]).len()), (Some(&"path_bounds"), 4));
-        let words: Vec<&str> = fallback
+        let rung = record
+            .decision
+            .fallback
+            .and_then(|fallback| fallback.path)
+            .unwrap();
+        let told: Vec<&str> = fallback
             .iter()
             .map(|k| data["texts"][place(k)].as_str().unwrap())
             .collect();
         assert_eq!(
-            words,
+            told,
             [
                 "the task `path_bounds` failed",
-                "of the tick before",
+                words::path_rung(rung),
                 "optimised stop"
             ]
         );
@@ -274,7 +280,7 @@ fn every_kind_of_fault_has_words() {
         .map(Rejection::Violates)
         .into_iter()
         .chain([Rejection::LeavesLine])
-        .map(|fault| crate::explain::words::rejection(&trace, fault))
+        .map(|fault| words::rejection(&trace, fault))
         .collect();
     words.sort();
     words.dedup();
