@@ -128,16 +128,19 @@ function strokeStrong(context, points, map, ink, width, dash = []) {
   context.setLineDash([]);
 }
 
-/// The curve of which a segment is nearest to the pointer, if one is near; among equals the cheapest.
+/// The curve that is nearest to the pointer, if one is near; among equals the cheapest, and rather one that may be driven.
 function curveAt(curves, map, x, y) {
-  let best = null;
+  let found = null, least = PICK;
   for (const curve of inOrder(curves).filter((one) => one.best || state.rejected)) {
+    const handicap = curve.best ? 0 : PICK / 3;
     for (let k = 0; k + 3 < curve.points.length; k += 2) {
-      const distance = fromSegment(map(curve.points[k], curve.points[k + 1]), map(curve.points[k + 2], curve.points[k + 3]), x, y);
-      if (distance < PICK && (!best || distance <= best.distance + 0.5)) best = { curve, distance: Math.min(distance, best?.distance ?? PICK) };
+      const [s, l, s2, l2] = curve.points.slice(k, k + 4);
+      const distance = fromSegment(map(s, l), map(s2, l2), x, y) + handicap;
+      // Half a pixel apart they are equal, and the later one in this order is cheaper.
+      if (distance < least + 0.5 && distance < PICK) [found, least] = [curve, Math.min(distance, least)];
     }
   }
-  return best?.curve ?? null;
+  return found;
 }
 
 function fromSegment([ax, ay], [bx, by], x, y) {
@@ -188,7 +191,7 @@ function paintPointedAcross(context, map) {
 
 /// A click on a curve holds it, so that the pointer can choose its partner in the other picture.
 function hold(which, curve) {
-  if (curve) held[which] = held[which] === curve.k ? null : curve.k;
+  if (curve?.pairs.length) held[which] = held[which] === curve.k ? null : curve.k;
   else Object.assign(held, { lateral: null, longitudinal: null });
 }
 

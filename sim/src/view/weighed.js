@@ -25,7 +25,7 @@ function drivenText() {
   const { driven, braking, pairs } = weighed;
   if (driven) return element("p", {}, `Driven: ${pairName(driven)} (${driven.along.kind}).`);
   const how = `brakes with ${fixed(-braking.deceleration, 1)} m/s² along lateral ${braking.lateral}`;
-  const none = pairs.length ? `none of ${pairs.length} pairs may be driven` : "no longitudinal curve keeps its limits";
+  const none = pairs.length ? `none of ${pairs.length} pairs may be driven` : "every longitudinal curve passes the stop point or breaks a limit";
   return braking.against === null
     ? element("p", { class: "warn" }, `Backup: ${how}, for ${none}.`)
     : element("p", { class: "fail" }, `Last resort: ${how} and even so ${run.texts[braking.against].replaceAll("`", "")}, for ${none}.`);
