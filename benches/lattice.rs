@@ -98,7 +98,7 @@ fn with_lattice<T>(line: &ReferenceLine, obstacles: &[Obstacle], then: impl FnOn
 fn lattice(c: &mut Criterion) {
     let line = roads::winding_road(400.0);
     let obstacles = traffic(&line);
-    let survey = with_lattice(&line, &obstacles, |lattice| lattice.survey());
+    let survey = with_lattice(&line, &obstacles, |lattice| lattice.assessed());
     let free = survey.iter().filter(|(_, rejection)| rejection.is_none()).count();
     assert!(
         survey.len() >= LEAST && free > 0,
@@ -112,7 +112,7 @@ fn lattice(c: &mut Criterion) {
     group.bench_function(format!("every_one_of_{}_with_20_obstacles", survey.len()), |b| {
         b.iter(|| {
             with_lattice(black_box(&line), black_box(&obstacles), |lattice| {
-                lattice.survey().len()
+                lattice.assessed().len()
             })
         });
     });

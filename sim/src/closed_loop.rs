@@ -14,6 +14,7 @@ use crate::verdict::Verdict;
 use crate::world::{Fnv, World};
 use corridor_decider::decision::{Decision, TrajectoryPoint};
 use corridor_decider::frame::{Frame, ObstacleId};
+use corridor_decider::planner::TaskName;
 use corridor_scenarios::Scenario;
 
 /// Takes in each finished tick: a trace writer, a test, or nobody.
@@ -29,6 +30,12 @@ pub trait Sink {
 
     /// Hears that it has answered.
     fn decided(&mut self) {}
+
+    /// Hears that the decider begins with a task.
+    fn begins(&mut self, _: TaskName) {}
+
+    /// Hears that the task that began last has ended.
+    fn ended(&mut self, _: TaskName) {}
 }
 
 /// A sink that keeps nothing.
@@ -64,7 +71,7 @@ impl ClosedLoop {
             world: World::new(scenario, &settings.physics),
             agents: Agents::new(scenario),
             route: Route::new(scenario, &settings.decider.lane_follow),
-            decider: Decider::new(scenario, settings),
+            decider: Decider::new(scenario.vehicle, settings),
             tracker: Tracker::new(scenario.vehicle, tracking),
             monitor: Monitor::new(scenario),
             story: Story::new(scenario),
@@ -93,7 +100,7 @@ impl ClosedLoop {
     fn tick(&mut self, sink: &mut dyn Sink) -> Option<TickRecord> {
         let frame = self.observe();
         sink.deciding();
-        let answer = self.decider.decide(&frame);
+        let answer = self.decider.decide(&frame, sink);
         sink.decided();
         let decision = match answer {
             Ok(decision) => decision,

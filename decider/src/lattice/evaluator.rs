@@ -26,6 +26,26 @@ pub struct Pair {
     pub cost: f64,
 }
 
+/// Why a longitudinal curve is in no pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Unfit {
+    /// It passes the stop point.
+    PassesStop,
+    /// Its speed, acceleration or jerk is beyond what is allowed.
+    BreaksLimits,
+}
+
+/// What is wrong with a longitudinal curve by itself, if anything is.
+pub(super) fn unfit(curve: &Curve, stop_s: Option<f64>) -> Option<Unfit> {
+    if !keeps_stop(curve, stop_s) {
+        Some(Unfit::PassesStop)
+    } else if !keeps_longitudinal_limits(curve) {
+        Some(Unfit::BreaksLimits)
+    } else {
+        None
+    }
+}
+
 /// Whether a curve from before the stop point stays before it within the horizon.
 pub fn keeps_stop(curve: &Curve, stop_s: Option<f64>) -> bool {
     stop_s.is_none_or(|stop_s| curve.at(0.0)[0] >= stop_s || curve.at(HORIZON)[0] + STOP_BUFFER <= stop_s)
@@ -63,6 +83,8 @@ struct Candidate {
     /// Its place in the bundle.
     place: usize,
     sampled: Sampled,
+    /// What it costs alone, weighted.
+    costs: LongitudinalCosts,
 }
 
 /// The pairs of two bundles, cheapest first; among equals the first in the bundles.
@@ -102,7 +124,7 @@ impl<'a> Evaluator<'a> {
             queue: BinaryHeap::new(),
         };
         for (place, curve) in curves.enumerate() {
-            if keeps_stop(curve, around.stop_s) && keeps_longitudinal_limits(curve) {
+            if unfit(curve, around.stop_s).is_none() {
                 evaluator.add(place, curve, around);
             }
         }
@@ -112,12 +134,17 @@ impl<'a> Evaluator<'a> {
     fn add(&mut self, place: usize, curve: &Curve, around: &Surroundings) {
         let sampled = Sampled::new(curve);
         let costs = LongitudinalCosts::new(&sampled, around.guide, around.blocked, around.line);
+        let costs = weighted(&self.weights, &costs);
         self.queue.push(Reverse(Entry {
-            cost: longitudinal_cost(&self.weights, &costs),
+            cost: sum(&costs),
             longitudinal: self.candidates.len(),
             lateral: None,
         }));
-        self.candidates.push(Candidate { place, sampled });
+        self.candidates.push(Candidate {
+            place,
+            sampled,
+            costs,
+        });
     }
 
     /// Places of the longitudinal curves that passed the filters.
@@ -132,10 +159,33 @@ impl<'a> Evaluator<'a> {
 
     /// Samples of a longitudinal curve by its place in the bundle.
     pub fn sampled(&self, place: usize) -> Option<&Sampled> {
+        self.candidate(place).map(|candidate| &candidate.sampled)
+    }
+
+    /// What a pair's cost is made of.
+    pub fn costs(&self, pair: &Pair) -> Option<PairCosts> {
+        let candidate = self.candidate(pair.longitudinal)?;
+        let [offset, comfort] = self.lateral_costs(&candidate.sampled, self.laterals.get(pair.lateral)?);
+        Some(PairCosts {
+            longitudinal: candidate.costs,
+            offset,
+            comfort,
+        })
+    }
+
+    fn candidate(&self, place: usize) -> Option<&Candidate> {
         let found = self
             .candidates
             .binary_search_by_key(&place, |candidate| candidate.place);
-        found.ok().map(|k| &self.candidates[k].sampled)
+        found.ok().map(|k| &self.candidates[k])
+    }
+
+    /// What a lateral curve adds to a longitudinal one: offset and comfort, weighted.
+    fn lateral_costs(&self, sampled: &Sampled, lateral: &LateralProfile) -> [f64; 2] {
+        [
+            lateral.offset_cost(sampled.way) * self.weights.lat_offset,
+            lateral_comfort(sampled, &lateral.curve) * self.weights.lat_comfort,
+        ]
     }
 }
 
@@ -154,10 +204,9 @@ impl Iterator for Evaluator<'_> {
                 });
             }
             for (lateral, profile) in self.laterals.iter().enumerate() {
-                let offset = profile.offset_cost(candidate.sampled.way);
-                let comfort = lateral_comfort(&candidate.sampled, &profile.curve);
+                let [offset, comfort] = self.lateral_costs(&candidate.sampled, profile);
                 self.queue.push(Reverse(Entry {
-                    cost: with_lateral(entry.cost, &self.weights, offset, comfort),
+                    cost: entry.cost + offset + comfort,
                     longitudinal: entry.longitudinal,
                     lateral: Some(lateral),
                 }));
@@ -166,18 +215,43 @@ impl Iterator for Evaluator<'_> {
     }
 }
 
-fn longitudinal_cost(weights: &Weights, costs: &LongitudinalCosts) -> f64 {
-    costs.objective * weights.lon_objective
-        + costs.jerk * weights.lon_jerk
-        + costs.collision * weights.lon_collision
-        + costs.centripetal * weights.centripetal_acceleration
+/// The six costs of a pair, each times its weight. Added up in this order they are what the pair costs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairCosts {
+    /// Those of the longitudinal curve alone.
+    pub longitudinal: LongitudinalCosts,
+    /// Departing from the line.
+    pub offset: f64,
+    /// Acceleration across the line.
+    pub comfort: f64,
 }
 
-fn with_lateral(cost: f64, weights: &Weights, offset: f64, comfort: f64) -> f64 {
-    cost + offset * weights.lat_offset + comfort * weights.lat_comfort
+impl PairCosts {
+    /// What the pair costs.
+    pub fn sum(&self) -> f64 {
+        sum(&self.longitudinal) + self.offset + self.comfort
+    }
+}
+
+fn weighted(weights: &Weights, costs: &LongitudinalCosts) -> LongitudinalCosts {
+    LongitudinalCosts {
+        objective: costs.objective * weights.lon_objective,
+        jerk: costs.jerk * weights.lon_jerk,
+        collision: costs.collision * weights.lon_collision,
+        centripetal: costs.centripetal * weights.centripetal_acceleration,
+    }
+}
+
+fn sum(costs: &LongitudinalCosts) -> f64 {
+    costs.objective + costs.jerk + costs.collision + costs.centripetal
 }
 
 /// The weighted sum of all costs of a pair.
 pub fn total_cost(weights: &Weights, costs: &LongitudinalCosts, offset: f64, comfort: f64) -> f64 {
-    with_lateral(longitudinal_cost(weights, costs), weights, offset, comfort)
+    let pair = PairCosts {
+        longitudinal: weighted(weights, costs),
+        offset: offset * weights.lat_offset,
+        comfort: comfort * weights.lat_comfort,
+    };
+    pair.sum()
 }

@@ -29,6 +29,7 @@ mod piecewise;
 mod piecewise_acceleration;
 mod plan;
 mod prediction;
+mod survey;
 #[cfg(test)]
 mod tests;
 
@@ -41,7 +42,7 @@ pub use constraints::{Violation, keeps_lateral_limits, keeps_longitudinal_limits
 pub use cost::{LateralProfile, LongitudinalCosts, Sampled, lateral_comfort};
 pub use curve::{ConstantDeceleration, Curve};
 pub use end_conditions::{EndCondition, cruise, lateral, path_time, stop};
-pub use evaluator::{Evaluator, Pair, Surroundings, keeps_stop, total_cost};
+pub use evaluator::{Evaluator, Pair, PairCosts, Surroundings, Unfit, keeps_stop, total_cost};
 pub use feasible_region::FeasibleRegion;
 pub use grid::{HORIZON, SAMPLES, TIMES};
 pub use guide::{Braking, GuideError, braking_profile, guide_speeds};
@@ -51,8 +52,9 @@ pub use line_table::{LineTable, foot_on};
 pub use path_time_graph::{LaneWidth, PathTimeEntry, PathTimeGraph, Project};
 pub use piecewise::Piecewise;
 pub use piecewise_acceleration::{PiecewiseAcceleration, PiecewiseError};
-pub use plan::{Assessed, Lattice, LineTask, Outcome, Planned, Rejection, Sizes};
+pub use plan::{Lattice, LineTask, Outcome, Planned, Rejection, Sizes};
 pub use prediction::{PredictedMotion, motions_of, pose_at, projected_speed};
+pub use survey::{Assessed, Survey};
 
 /// What the plan is for.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -105,21 +105,18 @@ pub struct Planned {
     pub sizes: Sizes,
 }
 
-/// A pair with what is wrong with it, if anything is.
-pub type Assessed = (Pair, Option<Rejection>);
-
 /// A longitudinal curve laid on the line, with what it comes near to.
 #[derive(Clone, Debug, Default)]
-struct Laid {
+pub(super) struct Laid {
     track: LongitudinalTrack,
     near: Near,
 }
 
 /// Everything that is known of one line before the search.
 pub struct Lattice<'a> {
-    task: LineTask<'a>,
-    longitudinal: Vec<Longitudinal>,
-    laterals: Vec<LateralProfile>,
+    pub(super) task: LineTask<'a>,
+    pub(super) longitudinal: Vec<Longitudinal>,
+    pub(super) laterals: Vec<LateralProfile>,
     guide: [f64; SAMPLES],
     blocked: Vec<Vec<(f64, f64)>>,
     environment: CollisionEnvironment,
@@ -161,40 +158,25 @@ impl<'a> Lattice<'a> {
         Evaluator::new(curves, &self.laterals, &around, self.task.config.weights)
     }
 
-    fn lay(&self, curve: &Sampled, laid: &mut Laid) {
+    pub(super) fn lay(&self, curve: &Sampled, laid: &mut Laid) {
         laid.track.lay(curve, self.task.line);
         self.environment
             .find_near(&laid.track, self.largest_offset, &self.ego, &mut laid.near);
     }
 
     /// What is wrong with a pair, if anything is; its points are left in `points`.
-    fn rejection(&self, laid: &Laid, lateral: usize, points: &mut Vec<Point>) -> Option<Rejection> {
+    pub(super) fn rejection(
+        &self,
+        laid: &Laid,
+        lateral: usize,
+        points: &mut Vec<Point>,
+    ) -> Option<Rejection> {
         combine(&laid.track, &self.laterals[lateral].curve, points);
         if points.len() < SAMPLES {
             return Some(Rejection::LeavesLine);
         }
         let violates = violation(points.iter().map(Point::dynamics)).map(Rejection::Violates);
         violates.or_else(|| laid.near.touched(points, &self.ego).map(Rejection::Touches))
-    }
-
-    /// Every pair with what is wrong with it, in the order of the longitudinal curves.
-    pub fn survey(&self) -> Vec<Assessed> {
-        let mut pairs: Vec<Pair> = Vec::new();
-        let mut queue = self.pairs();
-        pairs.extend(&mut queue);
-        pairs.sort_by_key(|pair| (pair.longitudinal, pair.lateral));
-        let (mut laid, mut points, mut on) = (Laid::default(), Vec::with_capacity(SAMPLES), None);
-        let mut assess = |pair: Pair| {
-            if let Some(sampled) = queue
-                .sampled(pair.longitudinal)
-                .filter(|_| on != Some(pair.longitudinal))
-            {
-                self.lay(sampled, &mut laid);
-                on = Some(pair.longitudinal);
-            }
-            (pair, self.rejection(&laid, pair.lateral, &mut points))
-        };
-        pairs.into_iter().map(&mut assess).collect()
     }
 
     /// The cheapest pair that may be driven, else braking; `None` where there is nothing to drive on.

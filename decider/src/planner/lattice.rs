@@ -54,14 +54,49 @@ pub struct LatticePlanner {
     vehicle: VehicleParams,
 }
 
+/// What a plan along one line starts from.
+struct Ground {
+    initial: FrenetMotion,
+    target: PlanningTarget,
+    table: LineTable,
+}
+
 /// What came of one line.
 struct OfLine {
     place: usize,
-    cost: f64,
+    cost: LineCost,
     planned: Planned,
-    table: LineTable,
-    s: f64,
+    ground: Ground,
     stop: Option<Stop>,
+}
+
+/// What driving along a line costs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineCost {
+    /// Place of the line in the frame.
+    pub place: usize,
+    /// Of the trajectory along it.
+    pub trajectory: f64,
+    /// For not being the line that is wanted.
+    pub surcharge: f64,
+}
+
+impl LineCost {
+    /// What lines are compared by.
+    pub fn sum(&self) -> f64 {
+        self.trajectory + self.surcharge
+    }
+}
+
+/// Everything that was weighed in one tick.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LatticeSurvey {
+    /// What each line costs on which there is something to drive, in the order of the frame.
+    pub lines: Vec<LineCost>,
+    /// Place of the one that is driven.
+    pub place: usize,
+    /// What was weighed along it.
+    pub survey: lattice::Survey,
 }
 
 impl LatticePlanner {
@@ -88,12 +123,9 @@ impl LatticePlanner {
 
     fn plan(&self, frame: &Frame, start: StartPoint, context: &mut Context) -> Decision {
         context.blind_since = None;
-        let preferred = lane_change::target_line(frame).unwrap_or(0);
-        let lines = (0..frame.lines.len())
-            .filter_map(|place| self.plan_line(frame, place, place == preferred, &start));
-        let best = lines.min_by(|a, b| a.cost.total_cmp(&b.cost));
-        let decision = match best {
-            Some(best) => conclude(&best, &start),
+        let lines = self.plan_lines(frame, &start);
+        let decision = match cheapest(&lines) {
+            Some(best) => conclude(best, &start),
             None => Decision::without_path(
                 Outcome::EmergencyStop,
                 FallbackCause::NoSampledTrajectory,
@@ -110,6 +142,32 @@ impl LatticePlanner {
         decision
     }
 
+    /// All that is weighed in a tick, for people to look at. `last` is what the context holds before the tick; `None`
+    /// where nothing is sampled.
+    pub fn survey(&self, frame: &Frame, last: Option<&LastTrajectory>) -> Option<LatticeSurvey> {
+        let start = start_point(frame, last);
+        if fallback::context_failure(frame, &start, &self.vehicle).is_some() {
+            return None;
+        }
+        let lines = self.plan_lines(frame, &start);
+        let best = cheapest(&lines)?;
+        self.with_lattice(frame, best.place, &best.ground, |lattice| {
+            Some(LatticeSurvey {
+                lines: lines.iter().map(|line| line.cost).collect(),
+                place: best.place,
+                survey: lattice.survey()?,
+            })
+        })
+    }
+
+    /// The plans along all lines that have one.
+    fn plan_lines(&self, frame: &Frame, start: &StartPoint) -> Vec<OfLine> {
+        let preferred = lane_change::target_line(frame).unwrap_or(0);
+        (0..frame.lines.len())
+            .filter_map(|place| self.plan_line(frame, place, place == preferred, start))
+            .collect()
+    }
+
     /// The plan along one line; `None` where the car's motion has no place on it.
     fn plan_line(
         &self,
@@ -118,12 +176,52 @@ impl LatticePlanner {
         is_preferred: bool,
         start: &StartPoint,
     ) -> Option<OfLine> {
+        let ground = self.ground(frame, place, start)?;
+        let (planned, stop) = self.with_lattice(frame, place, &ground, |lattice| {
+            let planned = lattice.plan()?;
+            let stop = stop(lattice, &planned, frame, &ground.target);
+            Some((planned, stop))
+        })?;
+        let cost = LineCost {
+            place,
+            trajectory: match planned.outcome {
+                lattice::Outcome::Found(pair) => pair.cost,
+                lattice::Outcome::Backup(_) => BACKUP_COST,
+                lattice::Outcome::LastResort(..) => LAST_RESORT_COST,
+            },
+            surcharge: self.surcharge(frame, is_preferred),
+        };
+        Some(OfLine {
+            place,
+            cost,
+            planned,
+            ground,
+            stop,
+        })
+    }
+
+    fn ground(&self, frame: &Frame, place: usize, start: &StartPoint) -> Option<Ground> {
         let line = &*frame.lines[place].line;
         let initial = initial_state(line, start)?;
         let [s, v, _] = initial.s;
         let target = target(frame, line, s, v);
         let reach = (v.max(target.cruise_speed) + self.vehicle.max_acceleration) * lattice::HORIZON + BEYOND;
-        let table = LineTable::sampled(line, s - BEHIND, s + reach)?;
+        Some(Ground {
+            initial,
+            target,
+            table: LineTable::sampled(line, s - BEHIND, s + reach)?,
+        })
+    }
+
+    /// What `then` makes of the lattice along a line.
+    fn with_lattice<T>(
+        &self,
+        frame: &Frame,
+        place: usize,
+        ground: &Ground,
+        then: impl FnOnce(&Lattice) -> T,
+    ) -> T {
+        let line = &*frame.lines[place].line;
         let lane_width = |s| line.lane_width(s);
         let project = |point: Vec2, near: f64| {
             if near.is_finite() {
@@ -132,31 +230,16 @@ impl LatticePlanner {
                 line.to_frenet(point)
             }
         };
-        let lattice = Lattice::new(LineTask {
-            line: &table,
-            initial,
+        then(&Lattice::new(LineTask {
+            line: &ground.table,
+            initial: ground.initial,
             obstacles: &frame.obstacles,
-            target,
+            target: ground.target,
             vehicle: &self.vehicle,
             config: &self.config.lattice,
             lane_width: &lane_width,
             project: &project,
-        });
-        let planned = lattice.plan()?;
-        let surcharge = self.surcharge(frame, is_preferred);
-        let cost = match planned.outcome {
-            lattice::Outcome::Found(pair) => pair.cost,
-            lattice::Outcome::Backup(_) => BACKUP_COST,
-            lattice::Outcome::LastResort(..) => LAST_RESORT_COST,
-        };
-        Some(OfLine {
-            place,
-            cost: cost + surcharge,
-            stop: stop(&lattice, &planned, frame, &target),
-            planned,
-            table,
-            s,
-        })
+        }))
     }
 
     /// What a line costs for not being the one that is wanted.
@@ -168,6 +251,11 @@ impl LatticePlanner {
             _ => config.cost_non_priority_reference_line,
         }
     }
+}
+
+/// The line that costs least; among equals the first.
+fn cheapest(lines: &[OfLine]) -> Option<&OfLine> {
+    lines.iter().min_by(|a, b| a.cost.sum().total_cmp(&b.cost.sum()))
 }
 
 /// The own lane, as a bound would be labelled.
@@ -277,13 +365,14 @@ fn conclude(best: &OfLine, start: &StartPoint) -> Decision {
         path: None,
         speed: Some(speed),
     });
-    let end = best.planned.points.last().map_or(best.s, |last| last.s);
-    let end = end.max(best.s + LEAST_PATH) + 1.0;
+    let [s, ..] = best.ground.initial.s;
+    let end = best.planned.points.last().map_or(s, |last| last.s);
+    let end = end.max(s + LEAST_PATH) + 1.0;
     Decision {
         line: best.place,
         candidates: Vec::new(),
         chosen: None,
-        path: lattice::path(&best.table, &best.planned.lateral, best.s, end),
+        path: lattice::path(&best.ground.table, &best.planned.lateral, s, end),
         trajectory: lattice::trajectory(&best.planned.points),
         stop: best.stop,
         outcome,

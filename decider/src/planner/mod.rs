@@ -9,7 +9,7 @@ mod stage;
 mod task;
 
 pub use lane_follow::Planner;
-pub use lattice::LatticePlanner;
+pub use lattice::{LatticePlanner, LatticeSurvey, LineCost};
 pub use plan::LinePlan;
 pub use probe::Probe;
 pub use stage::LANE_FOLLOW;

@@ -5,7 +5,9 @@ use super::planner::PlannerChoice;
 use super::{Gate, output, source};
 use clap::Args;
 use corridor_scenarios::{Family, MapCache, Scenario};
+use corridor_sim::report::times_to_table;
 use corridor_sim::settings::Settings;
+use corridor_sim::sweep::Stopwatch;
 use corridor_sim::trace::Trace;
 use corridor_sim::verdict::Verdict;
 use corridor_sim::{run, view};
@@ -31,6 +33,9 @@ pub(crate) struct Run {
     /// Write a page that shows the run to this file.
     #[arg(long, value_name = "FILE")]
     view: Option<PathBuf>,
+    /// Run it once more and print how long each task of the planner takes.
+    #[arg(long)]
+    times: bool,
     /// Change a setting, as in `decider.path_bounds.obstacle_lat_buffer=0.3` or `profile=apollo`.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<String>,
@@ -66,6 +71,12 @@ impl Run {
         output::print(&text(&verdict));
         if let Some(page) = &self.view {
             output::print(&format!("page {}\n", page.display()));
+        }
+        if self.times {
+            // A run of its own: writing a trace beside it would be timed too.
+            let mut watch = Stopwatch::default();
+            run::run_into(&drawn.scenario, &settings, &mut watch)?;
+            output::print(&times_to_table(&watch));
         }
         Ok(if verdict.pass { Gate::Passed } else { Gate::Failed })
     }

@@ -6,6 +6,7 @@ use corridor_decider::decision::{
     StopCause,
 };
 use corridor_decider::frame::Command;
+use corridor_decider::lattice::{self, Violation};
 use corridor_decider::road::Side;
 use corridor_decider::tasks::path_bounds::{BoundPoint, EdgeCause, PathBound};
 
@@ -89,7 +90,16 @@ pub(crate) fn outcome(outcome: Outcome) -> &'static str {
 
 /// What failed and what is driven instead.
 pub(crate) fn fallback(trace: &Trace, fallback: Fallback) -> String {
-    let cause = match fallback.cause {
+    let cause = fallback_cause(trace, fallback.cause);
+    let path = fallback.path.map(|rung| format!("path: {}", path_rung(rung)));
+    let speed = fallback.speed.map(|rung| format!("speed: {}", speed_rung(rung)));
+    let parts = [Some(cause), path, speed];
+    parts.into_iter().flatten().collect::<Vec<String>>().join("; ")
+}
+
+/// What failed.
+pub(crate) fn fallback_cause(trace: &Trace, cause: FallbackCause) -> String {
+    match cause {
         FallbackCause::Task(task) => format!("the task `{task}` failed"),
         FallbackCause::Trajectory(unfit) => format!("the trajectory is not fit to be driven: {unfit}"),
         FallbackCause::NoSampledTrajectory => "no sampled trajectory may be driven".to_owned(),
@@ -98,23 +108,45 @@ pub(crate) fn fallback(trace: &Trace, fallback: Fallback) -> String {
         FallbackCause::Context(ContextFailure::Overlap(id)) => {
             format!("the ego stands inside `{}`", trace.obstacle(id))
         }
-    };
-    let path = fallback.path.map(|rung| match rung {
-        PathRung::LastPath => "path: of the tick before",
-        PathRung::SelfLane => "path: in the own lane",
-        PathRung::OffsetLine => "path: beside the reference line",
-        PathRung::HeldArc => "path: on as the wheels are set",
-    });
-    let speed = fallback.speed.map(|rung| match rung {
-        SpeedRung::Optimised => "speed: optimised stop",
-        SpeedRung::EmergencyJerk => "speed: optimised stop with emergency jerk",
-        SpeedRung::Ramp => "speed: braking ramp",
-        SpeedRung::ConstantDeceleration => "speed: constant braking",
-        SpeedRung::LatticeBackup => "speed: the gentlest constant braking that touches nothing",
-        SpeedRung::LatticeLastResort => "speed: the hardest braking, though it is not free",
-    });
-    let parts = [Some(&cause[..]), path, speed];
-    parts.into_iter().flatten().collect::<Vec<&str>>().join("; ")
+    }
+}
+
+/// Where the path of a fallback comes from.
+pub(crate) fn path_rung(rung: PathRung) -> &'static str {
+    match rung {
+        PathRung::LastPath => "of the tick before",
+        PathRung::SelfLane => "in the own lane",
+        PathRung::OffsetLine => "beside the reference line",
+        PathRung::HeldArc => "on as the wheels are set",
+    }
+}
+
+/// Where the speed of a fallback comes from.
+pub(crate) fn speed_rung(rung: SpeedRung) -> &'static str {
+    match rung {
+        SpeedRung::Optimised => "optimised stop",
+        SpeedRung::EmergencyJerk => "optimised stop with emergency jerk",
+        SpeedRung::Ramp => "braking ramp",
+        SpeedRung::ConstantDeceleration => "constant braking",
+        SpeedRung::LatticeBackup => "the gentlest constant braking that touches nothing",
+        SpeedRung::LatticeLastResort => "the hardest braking, though it is not free",
+    }
+}
+
+/// Why a pair of curves may not be driven (lattice planner).
+pub(crate) fn rejection(trace: &Trace, rejection: lattice::Rejection) -> String {
+    match rejection {
+        lattice::Rejection::LeavesLine => "leaves the line".to_owned(),
+        lattice::Rejection::Violates(violation) => match violation {
+            Violation::Speed => "too fast, or backwards",
+            Violation::Acceleration => "speeds up or brakes too hard",
+            Violation::Curvature => "bends more than the steering can",
+            Violation::Jerk => "too much jerk",
+            Violation::LateralAcceleration => "too fast for its bend",
+        }
+        .to_owned(),
+        lattice::Rejection::Touches(id) => format!("touches `{}`", trace.obstacle(id)),
+    }
 }
 
 /// Class of an event.

@@ -9,12 +9,14 @@ mod json;
 mod junit;
 mod summary;
 mod table;
+mod times;
 
 pub use comparison::{Comparison, comparison_to_json, comparison_to_table};
 pub use json::to_json;
 pub use junit::to_junit;
 pub use summary::{PullOvers, ScenarioSummary};
 pub use table::{Colour, to_table};
+pub use times::times_to_table;
 
 use crate::sweep::CycleTimes;
 use crate::verdict::{Ending, Verdict};

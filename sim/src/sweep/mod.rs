@@ -9,7 +9,7 @@ mod stopwatch;
 
 pub use compare::{Variant, compare};
 pub use plan::{Job, Plan};
-pub use stopwatch::CycleTimes;
+pub use stopwatch::{CycleTimes, Stopwatch};
 
 use crate::decider;
 use crate::report::{RunResult, SweepReport, SweepRow};
@@ -20,7 +20,6 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
-use stopwatch::Stopwatch;
 
 /// Why a sweep cannot start.
 #[derive(Debug, thiserror::Error)]
@@ -113,7 +112,7 @@ fn judged(row: SweepRow, drawn: &Drawn, settings: &Settings) -> SweepRow {
         has_goal: expect.goal().is_some() || expect.goal_region().is_some(),
         rejected,
         wall_time,
-        cycles: watch.times,
+        cycles: watch.cycles,
         ..row
     }
 }

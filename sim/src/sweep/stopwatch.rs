@@ -5,6 +5,7 @@
 
 use crate::closed_loop::Sink;
 use crate::trace::{TickRecord, TraceError};
+use corridor_decider::planner::TaskName;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
@@ -66,30 +67,55 @@ impl CycleTimes {
     }
 }
 
-/// Times every answer of a run and keeps nothing else of it.
+/// Times every answer of a run, and each task on the way to it, and keeps nothing else.
 #[expect(
     clippy::disallowed_types,
     reason = "how long a decision took is never part of it: the loop does not see this clock"
 )]
 #[derive(Debug, Default)]
-pub(super) struct Stopwatch {
+pub struct Stopwatch {
     since: Option<std::time::Instant>,
-    pub(super) times: CycleTimes,
+    task_since: Option<std::time::Instant>,
+    /// Whole answers.
+    pub cycles: CycleTimes,
+    /// Tasks, in the order in which they first ran.
+    pub tasks: Vec<(TaskName, CycleTimes)>,
 }
 
+impl Stopwatch {
+    fn of(&mut self, task: TaskName) -> &mut CycleTimes {
+        let known = self.tasks.iter().position(|(of, _)| *of == task);
+        let place = known.unwrap_or_else(|| {
+            self.tasks.push((task, CycleTimes::default()));
+            self.tasks.len() - 1
+        });
+        &mut self.tasks[place].1
+    }
+}
+
+#[expect(clippy::disallowed_types, reason = "the clock is read outside of the loop")]
 impl Sink for Stopwatch {
     fn tick(&mut self, _: &TickRecord) -> Result<(), TraceError> {
         Ok(())
     }
 
-    #[expect(clippy::disallowed_types, reason = "the clock is read outside of the loop")]
     fn deciding(&mut self) {
         self.since = Some(std::time::Instant::now());
     }
 
     fn decided(&mut self) {
         if let Some(since) = self.since.take() {
-            self.times.add(since.elapsed());
+            self.cycles.add(since.elapsed());
+        }
+    }
+
+    fn begins(&mut self, _: TaskName) {
+        self.task_since = Some(std::time::Instant::now());
+    }
+
+    fn ended(&mut self, task: TaskName) {
+        if let Some(since) = self.task_since.take() {
+            self.of(task).add(since.elapsed());
         }
     }
 }

@@ -74,9 +74,11 @@ function showTip(text, event) {
   tip.hidden = false;
   tip.textContent = text;
   const { width, height } = tip.getBoundingClientRect();
-  const left = event.clientX + 14 + width > innerWidth ? event.clientX - 14 - width : event.clientX + 14;
+  // Inside its view, so that the words beside the pictures stay readable.
+  const edge = event.target.getBoundingClientRect();
+  const left = event.clientX + 14 + width > Math.min(innerWidth, edge.right) && event.clientX - 14 - width > edge.left ? event.clientX - 14 - width : event.clientX + 14;
   const top = event.clientY + 14 + height > innerHeight ? event.clientY - 14 - height : event.clientY + 14;
-  tip.style.left = `${Math.max(2, left)}px`;
+  tip.style.left = `${Math.max(2, Math.min(left, innerWidth - width - 2))}px`;
   tip.style.top = `${Math.max(2, top)}px`;
 }
 

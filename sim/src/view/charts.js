@@ -77,7 +77,7 @@ function paintLabelBand(context, x, width) {
   context.fillStyle = colour("soft");
   context.textAlign = "left";
   context.textBaseline = "middle";
-  context.fillText("chosen bound", width - CHART.right + 8, top + height / 2);
+  context.fillText(run.lattice ? "fallback" : "chosen bound", width - CHART.right + 8, top + height / 2);
 }
 
 function paintLimits(context, row, y, left, right) {
@@ -174,7 +174,7 @@ function paintReadout(context, row, x, y, top, height, right) {
   context.fillText(row.name, right + 8, top);
   context.fillStyle = colour(bad ? "bad" : "text");
   context.font = `600 ${FONT}`;
-  context.fillText(value === null && row.absent ? row.absent() : `${fixed(value)} ${row.unit}`, right + 8, top + 13);
+  context.fillText(value === null ? row.absent?.() ?? "none" : `${fixed(value)} ${row.unit}`, right + 8, top + 13);
   context.font = FONT;
   const note = row.note?.(value, state.k);
   if (note && value !== null && height >= 38) {
@@ -203,7 +203,7 @@ function paintTimeAxis(context, x, width, height) {
     context.fillText(fixed(t, steps.decimals), x(t), height - CHART.bottom + 9);
   }
   context.textAlign = "left";
-  context.fillText("time [s]", width - CHART.right + 8, height - CHART.bottom + 9);
+  context.fillText("time [s]", width - CHART.right + 16, height - CHART.bottom + 9);
 }
 
 function paintCursor(context, at, height, ink, width) {

@@ -20,6 +20,7 @@ const state = {
   turn: true,
   follow: true,
   predictions: true,
+  rejected: true, // whether curves that may not be driven are shown
 };
 
 const views = []; // {draw()} of each canvas

@@ -1,5 +1,7 @@
 //! Everything that the page gets to draw.
 
+use super::again::Again;
+use super::intern::Pool;
 use super::lane::{self, LaneData, MarkData};
 use super::line::LineData;
 use super::series::{self, Series};
@@ -35,6 +37,10 @@ pub(super) struct Page<'a> {
     /// The ego after the last tick, `x, y, theta`.
     end: Option<[f64; 3]>,
     obstacles: Vec<Box<RawValue>>,
+    tasks: Vec<Box<RawValue>>,
+    curves: Vec<String>,
+    /// The lattice planner's run; it has bundles instead of bounds.
+    lattice: Option<LatticeRun>,
     labels: Vec<String>,
     texts: Vec<String>,
     series: Series,
@@ -51,6 +57,13 @@ struct Vehicle {
     wheel_base: f64,
 }
 
+/// How far what was weighed is known.
+#[derive(Serialize)]
+struct LatticeRun {
+    /// Place of the first tick that did not come out again as it was recorded.
+    differs_from: Option<usize>,
+}
+
 #[derive(Serialize)]
 struct EventData<'a> {
     t: f64,
@@ -63,10 +76,12 @@ impl<'a> Page<'a> {
         let header = &trace.header;
         let origin = origin(trace);
         let mut pools = Pools::default();
-        let ticks = (trace.ticks.iter())
-            .map(|tick| TickData::new(trace, tick, origin, &mut pools))
-            .collect();
-        let raw = |text| RawValue::from_string(text).expect("it was written as JSON");
+        let mut again = Again::new(trace);
+        let mut tick = |k: usize| {
+            let survey = again.as_mut().and_then(|again| again.survey(k));
+            TickData::new(trace, &trace.ticks[k], survey.as_ref(), origin, &mut pools)
+        };
+        let ticks = (0..trace.ticks.len()).map(&mut tick).collect();
         Self {
             scenario: &header.scenario,
             // As text: JavaScript would round it.
@@ -97,7 +112,12 @@ impl<'a> Page<'a> {
                 .collect(),
             ticks,
             end: (trace.ticks.last()).map(|tick| tick::pose(tick.ego.pose, origin)),
-            obstacles: pools.obstacles.into_texts().into_iter().map(raw).collect(),
+            obstacles: raw(pools.obstacles),
+            tasks: raw(pools.tasks),
+            curves: pools.curves.into_texts(),
+            lattice: again.map(|again| LatticeRun {
+                differs_from: again.differs_from(),
+            }),
             labels: pools.labels.into_texts(),
             texts: pools.texts.into_texts(),
             series: Series::new(trace, &series::stations(trace)),
@@ -105,6 +125,12 @@ impl<'a> Page<'a> {
             verdict: &trace.verdict,
         }
     }
+}
+
+/// What was written as JSON, as it was written.
+fn raw(pool: Pool) -> Vec<Box<RawValue>> {
+    let raw = |text| RawValue::from_string(text).expect("it was written as JSON");
+    pool.into_texts().into_iter().map(raw).collect()
 }
 
 /// Where the ego starts, to the metre: digits before the point are as dear as those behind it.

@@ -1,9 +1,9 @@
-// The Frenet picture: stations to the right, offsets upwards (left is up), every candidate bound, obstacles as the
-// line sees them, the path. Hovering names the cause of the edges.
+// The Frenet picture: stations to the right, offsets upwards (left is up), every candidate bound or lateral curve,
+// obstacles as the line sees them, the path. Hovering names the cause of the edges.
 
 const GUTTER = { left: 44, right: 10, top: 8, bottom: 30 };
 const BEHIND = 14; // metres shown behind the ego
-const AHEAD = 112; // and ahead of it
+const AHEAD = run.lattice ? 92 : 112; // and ahead of it: lateral curves end after 80
 
 const range = { ahead: AHEAD, behind: BEHIND, low: null, high: null };
 const frenetView = canvasView("frenet", paintFrenet);
@@ -15,12 +15,15 @@ function frenetReset() {
 /// Offsets worth showing by default: the road, with a little room, and the bounds.
 function offsets(tick) {
   const line = lineCaches[tick.line];
-  let [low, high] = [-3, 3];
+  // Lateral curves end within half a metre of the line: the lane is enough for them.
+  const [lefts, rights] = run.lattice ? line.lane : line.road;
+  let [low, high] = run.lattice ? [-1, 1] : [-3, 3];
   line.s.forEach((s, k) => {
     if (s < tick.sl[0] - BEHIND || s > tick.sl[0] + AHEAD) return;
-    low = Math.min(low, -line.road[1][k]);
-    high = Math.max(high, line.road[0][k]);
+    low = Math.min(low, -rights[k]);
+    high = Math.max(high, lefts[k]);
   });
+  if (run.lattice) [low, high] = [Math.min(low, tick.sl[1] - 1), Math.max(high, tick.sl[1] + 1)];
   return [Math.max(low, -14) - 1.2, Math.min(high, 14) + 1.2];
 }
 
@@ -228,8 +231,8 @@ function paintEgoAndPath(context, map, tick) {
   context.strokeStyle = colour("ego");
   context.lineWidth = 1.8;
   context.stroke();
-  context.lineWidth = 2.2;
-  context.strokeStyle = colour("path");
+  context.lineWidth = run.lattice ? 3.4 : 2.2;
+  context.strokeStyle = colour(drivenInk(tick));
   trace(context, tick.path, map, 4, 0);
   context.stroke();
   context.beginPath();
@@ -271,7 +274,9 @@ function paintFrenet(context, width, height) {
   paintShapes(context, map, tick);
   const order = shown(tick).sort((a, b) => (a.k === tick.chosen) - (b.k === tick.chosen));
   for (const item of order) paintBound(context, map, item, tick);
+  paintAcross(context, map);
   paintEgoAndPath(context, map, tick);
+  paintPointedAcross(context, map);
   paintTargetOnLine(context, map, tick);
   paintStop(context, map, tick);
   paintShapeNames(context, map, tick);
@@ -318,11 +323,21 @@ function frenetText(x, y) {
     return `${found.text}${found.k === tick.chosen ? " (chosen)" : ""}\n${found.side} limit ${signed(found.l)} m at s ${fixed(found.s, 1)} m\n` +
       `from: ${found.run.text}\nso from s ${fixed(found.run.from, 1)} to ${fixed(found.run.to, 1)} m`;
   }
+  const curve = across(x, y);
+  pointed.lateral = curve?.k ?? null;
+  if (curve) return curveText(curve, "lateral");
   const obstacle = obstaclesOf(tick).find((o) => within(o.sl, map, x, y));
   return obstacle ? obstacleText(obstacle, tick) : null;
 }
 
+/// The lateral curve under the pointer.
+function across(x, y) {
+  if (!ticks.length || !weigh(ticks[state.k])) return null;
+  return curveAt(weighed.lateral, frenetMap(frenetView.width, frenetView.height), x, y);
+}
+
 pointer(frenetView, {
+  click(x, y) { if (run.lattice) hold("lateral", across(x, y)); },
   drag(dx, dy) {
     if (!ticks.length) return;
     const { w, h } = frenetMap(frenetView.width, frenetView.height);
@@ -352,3 +367,4 @@ pointer(frenetView, {
   hover: frenetText,
   reset: frenetReset,
 });
+frenetView.canvas.addEventListener("pointerleave", () => { pointed.lateral = null; });

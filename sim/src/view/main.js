@@ -104,7 +104,7 @@ function bindSwitch(id, key) {
 
 function bindKeys() {
   const toggle = {
-    r: bindSwitch("turn", "turn"), f: bindSwitch("follow", "follow"), c: bindSwitch("causes", "byCause"), p: bindSwitch("predictions", "predictions"),
+    r: bindSwitch("turn", "turn"), f: bindSwitch("follow", "follow"), c: bindSwitch("causes", "byCause"), p: bindSwitch("predictions", "predictions"), x: bindSwitch("rejected", "rejected"),
     d: () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"),
     " ": () => (state.playing ? pause() : play()),
     ArrowLeft: (event) => moveBy(event.shiftKey ? -10 : -1),
@@ -141,6 +141,7 @@ function writeAddress() {
 
 setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
 buildChips();
+openLattice();
 buildRoadKeys();
 buildTransport();
 bindKeys();

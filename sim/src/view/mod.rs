@@ -1,12 +1,17 @@
 //! One run as one self-contained HTML page: no server, no network, no build step.
 //!
 //! The page shows the road from above, the Frenet picture with every candidate bound and its causes, speed and
-//! its companions over time, the events, the verdict and the decision of each tick, with one slider for all.
+//! its companions over time, the events, the verdict, the decision and the tasks of each tick, with one slider for all.
+//! A run of the lattice planner has in place of bounds every sampled curve, across the line and over time, in the colour
+//! of its cost (`lattice.js`, `st.js`, `weighed.js`).
 //! `page.html` is its skeleton; the data go in as JSON, thinned to what a screen can show.
 
+mod again;
+mod bundle;
 mod data;
 mod intern;
 pub(crate) mod lane;
+mod letters;
 mod line;
 mod series;
 pub(crate) mod thin;
@@ -18,14 +23,17 @@ const SKELETON: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 
 /// The scripts, in the order in which they build on each other.
-const SCRIPTS: [&str; 8] = [
+const SCRIPTS: [&str; 11] = [
     include_str!("core.js"),
     include_str!("canvas.js"),
     include_str!("ground.js"),
+    include_str!("lattice.js"),
     include_str!("road.js"),
     include_str!("frenet.js"),
+    include_str!("st.js"),
     include_str!("charts.js"),
     include_str!("panel.js"),
+    include_str!("weighed.js"),
     include_str!("main.js"),
 ];
 

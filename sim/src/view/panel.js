@@ -20,7 +20,7 @@ function situation(tick) {
     ["command", `${run.texts[tick.command]}, at most ${fixed(series.cruise_speed[state.k], 1)} m/s`],
     ["stop", tick.stop === null ? "none" : run.texts[tick.stop] + (tick.stop_at ? `, ${fixed(tick.stop_at[0], 1)} m ahead` : "")],
     ["place", tick.pull_over ? (([s, l]) => `to pull over: s ${fixed(s)} m, l ${signed(l)} m`)(toLineNear(lineCaches[tick.line], tick.sl[0], ...tick.pull_over)) : null],
-    ["outcome", element("span", { class: tick.normal ? null : "fail" }, run.texts[tick.outcome])],
+    ["outcome", element("span", { class: tick.normal ? null : "fail" }, run.texts[tick.outcome] + (tick.fallback ? `: ${textOr(tick.fallback[0])}` : ""))],
     ["state", element("span", { class: "mono" }, tick.hash)],
   ]);
 }
@@ -63,13 +63,34 @@ function limitTable(candidate) {
     ...limitRows(candidate.left, "left"), ...limitRows(candidate.right, "right"));
 }
 
+const textOr = (place) => (place === null ? "none" : run.texts[place].replaceAll("`", ""));
+
+/// What each task was given and what it found, in the order in which they ran, up to the one that failed.
+function taskRow([name, input, output, error]) {
+  return element("div", { class: `task${error ? " failed" : ""}` }, element("i", {}, error ? "✗" : "✓"), element("b", {}, words(name)),
+    element("span", {}, output ? `${input} → ${output}` : input, error ? element("div", { class: "fail" }, error) : null));
+}
+
+function paintTasks() {
+  if (!ticks.length) return;
+  const tick = ticks[state.k];
+  const tasks = tick.tasks.map((place) => run.tasks[place]);
+  const fallback = tick.fallback ? [element("h3", {}, "Fallback"),
+    describe([["cause", textOr(tick.fallback[0])], ["path", tick.fallback[1] === null && tick.path.length ? "of this tick" : textOr(tick.fallback[1])], ["speed", textOr(tick.fallback[2])]])] : [];
+  // What failed comes before what was weighed.
+  byId("tasks").className = fallback.length ? "failed" : "";
+  byId("tasks").replaceChildren(...(tasks.length ? [element("h3", {}, "Tasks"), ...tasks.map(taskRow)] : []), ...fallback);
+}
+followers.push(paintTasks);
+
 function paintDecision() {
   if (!ticks.length) return;
   const tick = ticks[state.k];
   const chosen = tick.candidates[tick.chosen];
-  byId("decision").replaceChildren(
-    situation(tick),
-    element("h3", {}, "Candidates"),
+  byId("situation").replaceChildren(situation(tick));
+  if (run.lattice) return;
+  byId("bounds").replaceChildren(
+    ...(tick.candidates.length ? [element("h3", {}, "Candidates")] : []),
     ...tick.candidates.map((candidate, k) => candidateBox(candidate, k === tick.chosen)),
     ...(chosen ? [element("h3", {}, `Limits of ${run.labels[chosen.label]}`), limitTable(chosen)] : [element("h3", {}, "No bound chosen")]),
   );

@@ -84,6 +84,26 @@ function paintCorridor(context, map, tick) {
   context.globalAlpha = 1;
 }
 
+/// The lateral curves of the lattice planner over the ground.
+function paintSampledWays(context, map, tick) {
+  const line = lineCaches[tick.line];
+  const onGround = (s, l) => map(...toWorld(line, s, l));
+  if (!weigh(tick)) return;
+  for (const curve of inOrder(weighed.lateral)) strokeCurve(context, bending(curve.points), onGround, curve, 1.2);
+  paintPointedAcross(context, onGround);
+}
+
+/// `s, l, …` with a point at least every two metres, so that a straight stretch bends with the road.
+function bending(points) {
+  const all = points.slice(0, 2);
+  for (let k = 2; k < points.length; k += 2) {
+    const [s, l, s2, l2] = points.slice(k - 2, k + 2);
+    const steps = Math.max(1, Math.ceil((s2 - s) / 2));
+    for (let j = 1; j <= steps; j++) all.push(s + ((s2 - s) * j) / steps, l + ((l2 - l) * j) / steps);
+  }
+  return all;
+}
+
 /// A body with its reference point at `x, y`.
 function outline(context, map, x, y, theta, front, back, half) {
   const [sin, cos] = [Math.sin(theta), Math.cos(theta)];
@@ -98,7 +118,7 @@ const egoOutline = (context, map, x, y, theta) =>
   outline(context, map, x, y, theta, run.vehicle.front, run.vehicle.back, run.vehicle.half_width);
 
 function paintPlan(context, map, tick) {
-  context.strokeStyle = colour("path");
+  context.strokeStyle = colour(drivenInk(tick));
   context.lineWidth = 1;
   context.globalAlpha = 0.45;
   let next = GHOSTS_EVERY, lastX = Infinity, lastY = Infinity;
@@ -331,6 +351,7 @@ function paintRoad(context, width, height) {
   paintRoadGround(context, map);
   paintLine(context, map, lineCaches[tick.line]);
   paintCorridor(context, map, tick);
+  paintSampledWays(context, map, tick);
   paintTrail(context, map);
   paintTarget(context, map, tick);
   const obstacles = obstaclesOf(tick);

@@ -1,5 +1,7 @@
 //! The page stands alone, whatever a scenario is called.
 
+mod lattice;
+
 use super::{fill, page};
 use crate::trace::synthetic;
 

@@ -1,13 +1,15 @@
 //! One tick as the page draws it.
 
+use super::bundle::BundleData;
 use super::intern::Pool;
 use super::line::flat;
 use super::thin;
 use crate::explain::words;
 use crate::trace::{TickRecord, Trace};
-use corridor_decider::decision::{Candidate, PathPoint, TrajectoryPoint};
+use corridor_decider::decision::{Candidate, Fallback, PathPoint, TaskReport, TrajectoryPoint};
 use corridor_decider::frame::{Command, Obstacle};
 use corridor_decider::geometry::{Pose, Vec2};
+use corridor_decider::planner::LatticeSurvey;
 use corridor_decider::reference_line::{LineQuery, ReferenceLine};
 use corridor_decider::tasks::path_bounds::{BoundPoint, EdgeCause, PathBound};
 use serde::Serialize;
@@ -22,6 +24,10 @@ pub(super) struct Pools {
     pub(super) labels: Pool,
     /// Obstacles as JSON: a parked car is the same in every tick.
     pub(super) obstacles: Pool,
+    /// Reports of tasks as JSON: many say in every tick the same.
+    pub(super) tasks: Pool,
+    /// Sampled curves in letters.
+    pub(super) curves: Pool,
 }
 
 /// One tick. Short names where thousands of them are written.
@@ -48,6 +54,14 @@ pub(super) struct TickData {
     stop_at: Option<[f64; 6]>,
     outcome: usize,
     normal: bool,
+    /// What failed, and where the path and the speed come from instead.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fallback: Option<[Option<usize>; 3]>,
+    /// In the order in which they ran.
+    tasks: Vec<usize>,
+    /// What the lattice planner weighed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bundle: Option<BundleData>,
     /// `x, y, theta`
     pull_over: Option<[f64; 3]>,
     /// Where the command asks to stop, `x, y`.
@@ -94,7 +108,13 @@ struct ObstacleData {
 }
 
 impl TickData {
-    pub(super) fn new(trace: &Trace, tick: &TickRecord, origin: Vec2, pools: &mut Pools) -> Self {
+    pub(super) fn new(
+        trace: &Trace,
+        tick: &TickRecord,
+        survey: Option<&LatticeSurvey>,
+        origin: Vec2,
+        pools: &mut Pools,
+    ) -> Self {
         let (line, decision, frame) = (trace.line(tick), &tick.decision, &tick.frame);
         let at = line.to_frenet(frame.ego.pose.position());
         let [x, y, theta] = pose(frame.ego.pose, origin);
@@ -119,8 +139,13 @@ impl TickData {
                 .stop
                 .map(|stop| pools.texts.place(words::stop_cause(trace, stop.cause))),
             stop_at: stop.and_then(|stop| along(&decision.path, stop.distance, origin)),
-            outcome: pools.texts.place(outcome(trace, tick)),
+            outcome: pools.texts.place(words::outcome(decision.outcome).to_owned()),
             normal: decision.outcome.is_planned(),
+            fallback: decision.fallback.map(|fallen| fallback(trace, fallen, pools)),
+            tasks: (decision.tasks.iter())
+                .map(|report| pools.tasks.place(task(report)))
+                .collect(),
+            bundle: survey.map(|survey| BundleData::new(trace, survey, pools)),
             pull_over: decision.pull_over.map(|target| {
                 pose(
                     Pose::new(target.position.x, target.position.y, target.theta),
@@ -136,13 +161,23 @@ impl TickData {
     }
 }
 
-/// How a tick ended, and why if not as planned.
-fn outcome(trace: &Trace, tick: &TickRecord) -> String {
-    let outcome = words::outcome(tick.decision.outcome);
-    match tick.decision.fallback {
-        Some(fallback) => format!("{outcome} ({})", words::fallback(trace, fallback)),
-        None => outcome.to_owned(),
-    }
+fn fallback(trace: &Trace, fallback: Fallback, pools: &mut Pools) -> [Option<usize>; 3] {
+    let path = fallback.path.map(words::path_rung);
+    let speed = fallback.speed.map(words::speed_rung);
+    [
+        Some(words::fallback_cause(trace, fallback.cause)),
+        path.map(str::to_owned),
+        speed.map(str::to_owned),
+    ]
+    .map(|text| text.map(|text| pools.texts.place(text)))
+}
+
+/// `task, input, output`, and why it failed if it did.
+fn task(report: &TaskReport) -> String {
+    let name = report.task.to_string();
+    let mut words = vec![&name, &report.input, &report.output];
+    words.extend(&report.error);
+    serde_json::to_string(&words).expect("plain data always serialise")
 }
 
 /// Angles and curvatures.

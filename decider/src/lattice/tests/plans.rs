@@ -147,7 +147,7 @@ fn the_queue_gives_all_pairs_in_order() {
         let pairs: Vec<Pair> = queue.collect();
         assert!(count > 100 && pairs.len() == count);
         assert!(pairs.windows(2).all(|pair| pair[0].cost <= pair[1].cost));
-        let survey = lattice.survey();
+        let survey = lattice.assessed();
         let free = survey
             .iter()
             .filter(|(_, rejection)| rejection.is_none())

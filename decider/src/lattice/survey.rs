@@ -1,0 +1,82 @@
+//! Everything that was weighed along one line, for people to look at: every curve, every pair, what it costs and why it
+//! may not be driven.
+//!
+//! The plan stops at the first pair that may be driven; here all of them are held against everything, by the same code.
+
+use super::PlanningTarget;
+use super::bundle::Longitudinal;
+use super::curve::Curve;
+use super::evaluator::{Pair, PairCosts, Unfit, unfit};
+use super::grid::SAMPLES;
+use super::path_time_graph::PathTimeEntry;
+use super::plan::{Laid, Lattice, Planned, Rejection};
+use crate::geometry::frenet::FrenetMotion;
+
+/// A pair with what is wrong with it, if anything is.
+pub type Assessed = (Pair, Option<Rejection>);
+
+/// What there was to choose from along one line, and what was chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Survey {
+    /// Where the curves start.
+    pub initial: FrenetMotion,
+    /// What the plan was for.
+    pub target: PlanningTarget,
+    /// What the path-time graph holds.
+    pub entries: Vec<PathTimeEntry>,
+    /// The longitudinal curves, with what keeps them out of all pairs.
+    pub longitudinal: Vec<(Longitudinal, Option<Unfit>)>,
+    /// The lateral curves.
+    pub lateral: Vec<Curve>,
+    /// Every pair, in the order of the longitudinal curves and then of the lateral ones.
+    pub pairs: Vec<Assessed>,
+    /// What the cost of each pair is made of.
+    pub costs: Vec<PairCosts>,
+    /// What is driven.
+    pub planned: Planned,
+}
+
+impl Lattice<'_> {
+    /// Every pair with what is wrong with it, in the order of the longitudinal curves and then of the lateral ones.
+    pub fn assessed(&self) -> Vec<Assessed> {
+        let mut pairs: Vec<Pair> = Vec::new();
+        let mut queue = self.pairs();
+        pairs.extend(&mut queue);
+        pairs.sort_by_key(|pair| (pair.longitudinal, pair.lateral));
+        let (mut laid, mut points, mut on) = (Laid::default(), Vec::with_capacity(SAMPLES), None);
+        let mut assess = |pair: Pair| {
+            if let Some(sampled) = queue
+                .sampled(pair.longitudinal)
+                .filter(|_| on != Some(pair.longitudinal))
+            {
+                self.lay(sampled, &mut laid);
+                on = Some(pair.longitudinal);
+            }
+            (pair, self.rejection(&laid, pair.lateral, &mut points))
+        };
+        pairs.into_iter().map(&mut assess).collect()
+    }
+
+    /// All that was weighed, and the plan that came of it; `None` where there is no plan.
+    pub fn survey(&self) -> Option<Survey> {
+        let planned = self.plan()?;
+        let (pairs, queue) = (self.assessed(), self.pairs());
+        let stop_s = self.task.target.stop_s;
+        let with_fault =
+            |longitudinal: &Longitudinal| (longitudinal.clone(), unfit(&longitudinal.curve, stop_s));
+        Some(Survey {
+            initial: self.task.initial,
+            target: self.task.target,
+            entries: self.graph.entries.clone(),
+            longitudinal: self.longitudinal.iter().map(with_fault).collect(),
+            lateral: self
+                .laterals
+                .iter()
+                .map(|lateral| lateral.curve.clone())
+                .collect(),
+            costs: pairs.iter().filter_map(|(pair, _)| queue.costs(pair)).collect(),
+            pairs,
+            planned,
+        })
+    }
+}
