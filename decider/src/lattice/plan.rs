@@ -12,7 +12,7 @@ use super::curve::{ConstantDeceleration, Curve};
 use super::end_conditions;
 use super::evaluator::{Evaluator, Pair, STOP_BUFFER, Surroundings};
 use super::feasible_region::FeasibleRegion;
-use super::grid::SAMPLES;
+use super::grid::{HORIZON, SAMPLES};
 use super::guide::guide_speeds;
 use super::lateral_bounds::lateral_bounds;
 use super::lateral_optimum::lateral_optimum;
@@ -212,7 +212,8 @@ impl<'a> Lattice<'a> {
         self.backup(sizes)
     }
 
-    /// The gentlest constant braking that touches nothing, else the hardest.
+    /// The gentlest constant braking that touches nothing and stays before the stop point, or passes it least; else the
+    /// hardest.
     fn backup(&self, sizes: Sizes) -> Option<Planned> {
         let [s, v, _] = self.task.initial.s;
         let curves: Vec<Curve> = self
@@ -226,7 +227,9 @@ impl<'a> Lattice<'a> {
             lateral: curves[lateral].clone(),
             sizes,
         };
-        for pair in backup_order(s, v, &curves) {
+        let mut order = backup_order(s, v, &curves);
+        order.sort_by(|a, b| self.beyond_stop(a).total_cmp(&self.beyond_stop(b)));
+        for pair in order {
             let Some((points, rejection)) = self.braking(pair) else {
                 continue;
             };
@@ -246,6 +249,14 @@ impl<'a> Lattice<'a> {
             Some(rejection) => Outcome::LastResort(pair, rejection),
         };
         Some(planned(outcome, points, pair.lateral))
+    }
+
+    /// How far braking leads beyond the stop point within the horizon, m.
+    fn beyond_stop(&self, pair: &BackupPair) -> f64 {
+        let [s, v, _] = self.task.initial.s;
+        let end = ConstantDeceleration::new(s, v, pair.deceleration).map_or(s, |curve| curve.at(HORIZON)[0]);
+        let stop_s = self.task.target.stop_s.unwrap_or(f64::MAX);
+        (end - stop_s.max(s)).max(0.0)
     }
 
     /// Constant braking as a trajectory, and what is wrong with it. Nobody asks it to be comfortable.

@@ -204,7 +204,7 @@ impl LatticePlanner {
         let line = &*frame.lines[place].line;
         let initial = initial_state(line, start)?;
         let [s, v, _] = initial.s;
-        let target = target(frame, line, s, v);
+        let target = target(frame, line, s);
         let reach = (v.max(target.cruise_speed) + self.vehicle.max_acceleration) * lattice::HORIZON + BEYOND;
         Some(Ground {
             initial,
@@ -265,15 +265,17 @@ const OWN_LANE: Label = Label::Regular {
 };
 
 /// How fast the car may drive along a line, and where it has to stop.
-fn target(frame: &Frame, line: &ReferenceLine, s: f64, v: f64) -> PlanningTarget {
+fn target(frame: &Frame, line: &ReferenceLine, s: f64) -> PlanningTarget {
     let end = line.length() - LINE_END;
-    let place = match frame.command {
-        Command::PullOver(place) => line.to_frenet(place).s,
-        Command::EmergencyPullOver => s + v * v / (2.0 * BEND_ACCELERATION),
-        Command::Cruise | Command::ChangeLane(_) => end,
+    let cruise_speed = cruise_speed(line, s).min(frame.cruise_speed);
+    let (cruise_speed, place) = match frame.command {
+        Command::PullOver(place) => (cruise_speed, line.to_frenet(place).s),
+        // Anywhere will do, so there is no place that could be missed.
+        Command::EmergencyPullOver => (0.0, end),
+        Command::Cruise | Command::ChangeLane(_) => (cruise_speed, end),
     };
     PlanningTarget {
-        cruise_speed: cruise_speed(line, s).min(frame.cruise_speed),
+        cruise_speed,
         stop_s: Some(place.min(end)),
     }
 }
