@@ -2,6 +2,7 @@
 
 use super::plan::LinePlan;
 use super::task::TaskName;
+use crate::decision::StopCause;
 use crate::st_graph::SpeedData;
 use crate::tasks::object_decision::Longitudinal;
 use crate::tasks::path_bounds::PathBound;
@@ -13,20 +14,21 @@ impl TaskName {
     pub(super) fn input(self, plan: &LinePlan) -> String {
         let scene = &plan.scene;
         match self {
-            Self::LaneChange | Self::LaneBorrow => format!("{} moving obstacles", scene.moving.len()),
+            Self::LaneChange | Self::LaneBorrow => counted(scene.moving.len(), "moving obstacle"),
             Self::PathReuse => String::from("the last path"),
-            Self::PathBounds => format!("{} obstacles, {} sides", scene.obstacles.len(), plan.borrow.len()),
-            Self::PiecewiseJerkPath | Self::SampledPath => format!("{} bounds", plan.bounds.bounds.len()),
-            Self::PathAssessment => format!("{} paths", plan.candidates.iter().flatten().count()),
-            Self::Rss => format!("{} obstacles", scene.obstacles.len()),
-            Self::PathDecider => format!("{} standing obstacles", scene.bodies.len()),
+            Self::PathBounds => {
+                let obstacles = counted(scene.obstacles.len(), "obstacle");
+                format!("{obstacles}, {}", counted(plan.borrow.len(), "side"))
+            }
+            Self::PiecewiseJerkPath | Self::SampledPath => counted(plan.bounds.bounds.len(), "bound"),
+            Self::PathAssessment => counted(plan.candidates.iter().flatten().count(), "path"),
+            Self::Rss => counted(scene.obstacles.len(), "obstacle"),
+            Self::PathDecider => counted(scene.bodies.len(), "standing obstacle"),
             Self::SpeedHeuristic
             | Self::SpeedDecider
             | Self::SpeedBoundsFinal
             | Self::PiecewiseJerkSpeed
-            | Self::PiecewiseJerkNonlinearSpeed => {
-                format!("{} obstacles on the path", plan.on_path.len())
-            }
+            | Self::PiecewiseJerkNonlinearSpeed => counted(plan.on_path.len(), "obstacle") + " on the path",
             Self::RuleBasedStop | Self::SpeedBoundsPriori => plan.path().map_or_else(
                 || String::from("no path"),
                 |path| format!("a path of {:.1} m", path.length()),
@@ -43,21 +45,21 @@ impl TaskName {
             } else {
                 "none"
             }),
-            Self::LaneBorrow => format!("{} sides", plan.borrow.len()),
+            Self::LaneBorrow => counted(plan.borrow.len(), "side"),
             Self::PathBounds => list(plan.bounds.bounds.iter().map(|bound: &PathBound| bound.label)),
             Self::PiecewiseJerkPath | Self::SampledPath => {
                 let found = plan.candidates.iter().flatten().filter(|found| found.is_ok());
-                format!("{} paths", found.count())
+                counted(found.count(), "path")
             }
             Self::PathAssessment => list(plan.label()),
             Self::PathDecider => plan.stop_before_blocker.map_or_else(
                 || String::from("nothing blocks"),
                 |distance| format!("a stop at {distance:.1} m"),
             ),
-            Self::RuleBasedStop => plan
-                .wall
-                .map_or_else(String::new, |wall| format!("a wall at {:.1} m", wall.distance)),
-            Self::SpeedBoundsPriori => format!("{} obstacles on the path", plan.on_path.len()),
+            Self::RuleBasedStop => plan.wall.map_or_else(String::new, |wall| {
+                format!("a wall at {:.1} m, {}", wall.distance, purpose(wall.cause))
+            }),
+            Self::SpeedBoundsPriori => counted(plan.on_path.len(), "obstacle") + " on the path",
             Self::SpeedHeuristic => way(plan.heuristic.as_ref()),
             Self::SpeedDecider | Self::SpeedBoundsFinal => decided(plan),
             Self::PiecewiseJerkSpeed | Self::PiecewiseJerkNonlinearSpeed => way(plan.speed.as_ref()),
@@ -66,6 +68,27 @@ impl TaskName {
                 format!("{verdict}: {:.1} m, {:.1} m wanted", rss.gap, rss.safe_distance)
             }),
         }
+    }
+}
+
+/// What a wall is for.
+fn purpose(cause: StopCause) -> &'static str {
+    match cause {
+        StopCause::Blocked(_) => "before what blocks the path",
+        StopCause::Follow(_) | StopCause::Yield(_) => "for traffic",
+        StopCause::SidePass => "to look before going out",
+        StopCause::LaneChangeUrgency => "to wait for the other lane",
+        StopCause::PullOver => "to pull over",
+        StopCause::Destination => "the end of the route",
+        StopCause::PathEnd => "the end of the path",
+    }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    match count {
+        0 => format!("no {what}s"),
+        1 => format!("1 {what}"),
+        _ => format!("{count} {what}s"),
     }
 }
 
