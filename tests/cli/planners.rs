@@ -37,6 +37,29 @@ fn either_planner_drives() {
 }
 
 #[test]
+fn times_are_told_beside_the_result_and_change_nothing_of_it() {
+    let folder = Folder::new("times");
+    folder.put("good.toml", GOOD);
+    let usual = folder.run(&["run", "good.toml"]);
+    let timed = folder.run(&["run", "good.toml", "--times"]);
+    let rest = timed.out.strip_prefix(&usual.out).expect("the same, and more");
+    let of = |planner| {
+        folder
+            .run(&["run", "good.toml", "--times", "--planner", planner])
+            .out
+    };
+    assert!(
+        rest.contains("whole answer") && rest.contains("path_bounds"),
+        "{rest}"
+    );
+    let lattice = of("lattice");
+    assert!(
+        lattice.contains("whole answer") && !lattice.contains("path_bounds"),
+        "{lattice}"
+    );
+}
+
+#[test]
 fn a_trace_of_the_lattice_planner_replays_and_is_explained() {
     let folder = Folder::new("lattice-trace");
     folder.put("good.toml", GOOD);

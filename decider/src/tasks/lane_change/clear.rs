@@ -96,21 +96,29 @@ pub fn is_clear(
 ) -> bool {
     for neighbour in neighbours.iter_mut().filter(|neighbour| neighbour.is_moving) {
         let middle = (neighbour.station.0 + neighbour.station.1) * 0.5;
-        if lane(middle).is_some_and(|(left, right)| neighbour.offset.1 < -right || neighbour.offset.0 > left)
-        {
+        if lane(middle).is_some_and(|width| neighbour.is_beside(width)) {
             continue;
         }
-        let gaps = safe_gaps(ego.has_direction_of(neighbour), ego.speed, neighbour.speed);
-        let (ahead, behind) = (
-            neighbour.station.0 - ego.station.1,
-            ego.station.0 - neighbour.station.1,
-        );
-        neighbour.is_blocking = gaps.are_missing(ahead, behind, neighbour.is_blocking);
+        neighbour.is_blocking = neighbour.blocks(ego);
         if neighbour.is_blocking {
             return false;
         }
     }
     true
+}
+
+impl Neighbour {
+    /// Whether it is outside of a lane with this left and right width.
+    pub fn is_beside(&self, (left, right): (f64, f64)) -> bool {
+        self.offset.1 < -right || self.offset.0 > left
+    }
+
+    /// Whether it is too near for the ego to come before or behind it.
+    pub fn blocks(&self, ego: &Changer) -> bool {
+        let gaps = safe_gaps(ego.has_direction_of(self), ego.speed, self.speed);
+        let (ahead, behind) = (self.station.0 - ego.station.1, ego.station.0 - self.station.1);
+        gaps.are_missing(ahead, behind, self.is_blocking)
+    }
 }
 
 impl Changer {

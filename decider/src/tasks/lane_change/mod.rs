@@ -8,12 +8,14 @@ pub mod state;
 
 pub use state::StateConfig as LaneChangeConfig;
 
-use super::scene::Scene;
+use super::scene::{Moving, Scene};
 use crate::context::Context;
 use crate::frame::{Frame, FrameLine, ObstacleId};
 use crate::planner::{LinePlan, TaskError};
 use crate::reference_line::LineQuery;
+use clear::{Changer, Neighbour};
 use state::{Line, Phase, Status};
+use std::f64::consts::PI;
 
 /// How many ticks the target lane must have been clear: a gap that is there for one tick is none.
 const CLEAR_CYCLES: u32 = 4;
@@ -140,17 +142,23 @@ fn is_committed(scene: &Scene) -> bool {
     overlap > COMMITTED
 }
 
-fn blocks(scene: &Scene, moving: &super::scene::Moving, blocked_before: bool) -> bool {
+fn blocks(scene: &Scene, moving: &Moving, blocked_before: bool) -> bool {
     let now = moving.boxes[0];
-    let Some((left, right)) = scene.line.lane_width(now.at.s.clamp(0.0, scene.line.length())) else {
-        return false;
+    let along = scene.line.point(now.at.s).theta;
+    let neighbour = Neighbour {
+        station: (now.at.s - now.half_length, now.at.s + now.half_length),
+        offset: (now.at.l - now.half_width, now.at.l + now.half_width),
+        is_moving: true,
+        speed: now.s_dot.abs(),
+        heading: Some(if now.s_dot < 0.0 { along + PI } else { along }),
+        is_blocking: blocked_before,
     };
-    if now.at.l + now.half_width < -right || now.at.l - now.half_width > left {
-        return false;
-    }
-    let gaps = clear::safe_gaps(now.s_dot >= 0.0, scene.frame.ego.v, now.s_dot.abs());
-    let ego_start_s = scene.ego.s - scene.vehicle.back_edge_to_center;
-    let behind = ego_start_s - (now.at.s + now.half_length);
-    let ahead = (now.at.s - now.half_length) - scene.ego_end_s();
-    gaps.are_missing(ahead, behind, blocked_before)
+    let ego = Changer {
+        station: (scene.ego.s - scene.vehicle.back_edge_to_center, scene.ego_end_s()),
+        speed: scene.frame.ego.v,
+        heading: along,
+        is_reversing: false,
+    };
+    let lane = scene.line.lane_width(now.at.s.clamp(0.0, scene.line.length()));
+    lane.is_some_and(|width| !neighbour.is_beside(width)) && neighbour.blocks(&ego)
 }
