@@ -15,9 +15,6 @@ use crate::tasks::scene::{Body, Scene};
 /// Length at the end of a path that the original leaves unchecked, m.
 const UNCHECKED_TAIL: f64 = 10.5;
 
-/// How far a corner may stand over the road's edge, m: half of what counts as off the road.
-const ROAD_TOLERANCE: f64 = 0.15;
-
 /// Curvature above the limit that a path may start with, 1/m: what the car does now it does.
 const START_EXCESS: f64 = 0.02;
 
@@ -51,7 +48,7 @@ pub(super) fn assess(
         }
         points.truncate(k);
     }
-    if leaves_road(scene, table, &points) {
+    if leaves_road(scene, table, &points, corridor.road_tolerance) {
         return Err(Rejection::LeavesRoad);
     }
     until_contact(scene, points)
@@ -64,7 +61,7 @@ pub(super) fn start_excess(distance: f64) -> f64 {
 
 /// Whether a corner of the body leaves the road surface where it has not been off it from the start. Front and rear
 /// are held against the road where they are: in a tight bend that is not beside the rear axle.
-fn leaves_road(scene: &Scene, table: &LineTable, points: &[PathPoint]) -> bool {
+fn leaves_road(scene: &Scene, table: &LineTable, points: &[PathPoint], tolerance: f64) -> bool {
     let vehicle = scene.vehicle;
     let beyond = |row: &Row, at: Vec2| {
         let l = row.forward.x * (at.y - row.position.y) - row.forward.y * (at.x - row.position.x);
@@ -79,7 +76,7 @@ fn leaves_road(scene: &Scene, table: &LineTable, points: &[PathPoint]) -> bool {
         beyond(row(k + ahead), front).max(beyond(row(k.saturating_sub(behind)), rear))
     };
     let mut overhangs = points.iter().enumerate().map(overhang);
-    let allowed = overhangs.next().unwrap_or(0.0).max(0.0) + ROAD_TOLERANCE;
+    let allowed = overhangs.next().unwrap_or(0.0).max(0.0) + tolerance;
     overhangs.any(|overhang| overhang > allowed)
 }
 

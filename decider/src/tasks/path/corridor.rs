@@ -3,7 +3,7 @@
 use super::Goal;
 use super::table::{LineTable, Row, STEP};
 use crate::decision::PathPoint;
-use crate::tasks::path_bounds::{BoundPoint, EdgeCause, PathBound};
+use crate::tasks::path_bounds::{BoundPoint, EdgeCause, Label, PathBound};
 use crate::tasks::scene::Scene;
 
 /// How far behind the ego's place the corridor may exclude it, and over which length that may last, m: a
@@ -70,11 +70,18 @@ pub(super) struct Corridor {
     pub smoothing_length: f64,
     /// Allowed overshoot per station, m.
     pub tolerance: Vec<f64>,
+    /// How far a corner of the body may stand over the road's edge, m.
+    pub road_tolerance: f64,
     /// Curvature of the line that the path should even out, per station: none where the line is fit to be driven.
     pub bends: Vec<f64>,
     /// The way of the tick before along these stations, as far as it leads.
     pub last: Option<Vec<f64>>,
 }
+
+/// How far a corner may stand over the road's edge, m: half of what counts as off the road; and in the bound after which
+/// there is none: a street may be too tight for the car's corners, and to stand there for good helps nobody.
+const ROAD_TOLERANCE: f64 = 0.15;
+const LAST_ROAD_TOLERANCE: f64 = 0.25;
 
 impl Corridor {
     /// The bound at every metre, each the narrowest of the stations around it. `None` if it is too short.
@@ -131,6 +138,11 @@ impl Corridor {
             start,
             smoothing_length,
             tolerance,
+            road_tolerance: if bound.label == Label::Fallback {
+                LAST_ROAD_TOLERANCE
+            } else {
+                ROAD_TOLERANCE
+            },
             bends: vec![0.0; count],
             last,
         })
