@@ -5,7 +5,7 @@
 
 use super::cost::Sampled;
 use super::curve::Curve;
-use super::grid::TIMES;
+use super::grid::{SAMPLES, TIMES};
 use super::line_table::LineTable;
 use crate::decision::{PathPoint, TrajectoryPoint};
 use crate::geometry::frenet::{Foot, Offset};
@@ -20,16 +20,25 @@ struct OnLine {
     t: f64,
     foot: Foot,
     forward: Vec2,
-    /// Way along the line since the start, m.
-    way: f64,
     /// Speed and acceleration along the line.
     speed: (f64, f64),
 }
 
 /// A longitudinal curve on its line, as far as the line leads.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LongitudinalTrack {
     points: Vec<OnLine>,
+    /// Ways along the line since the start, m.
+    ways: [f64; SAMPLES],
+}
+
+impl Default for LongitudinalTrack {
+    fn default() -> Self {
+        Self {
+            points: Vec::with_capacity(SAMPLES),
+            ways: [0.0; SAMPLES],
+        }
+    }
 }
 
 impl LongitudinalTrack {
@@ -45,20 +54,19 @@ impl LongitudinalTrack {
         self.points.clear();
         let start = curve.at[0][0];
         let (mut before, mut place) = (f64::NEG_INFINITY, 0);
-        for (t, [s, v, a, _]) in TIMES.iter().zip(&curve.at) {
+        for (k, [s, v, a, _]) in curve.at.iter().enumerate() {
             let s = s.max(before);
             if s > line.end() {
                 break;
             }
             before = s;
-            let foot = line.at_next(s, &mut place);
-            let speed = (v.max(LEAST_SPEED), *a);
+            let (foot, forward) = line.at_next(s, &mut place);
+            self.ways[k] = s - start;
             self.points.push(OnLine {
-                t: *t,
+                t: TIMES[k],
                 foot,
-                forward: foot.pose.forward(),
-                way: s - start,
-                speed,
+                forward,
+                speed: (v.max(LEAST_SPEED), *a),
             });
         }
     }
@@ -94,8 +102,9 @@ pub struct Point {
 /// none.
 pub fn combine(track: &LongitudinalTrack, lateral: &Curve, points: &mut Vec<Point>) {
     points.clear();
-    for on in &track.points {
-        let [l, dl, ddl, _] = lateral.at(on.way);
+    let [offsets, slopes, bends] = lateral.along(&track.ways);
+    for (k, on) in track.points.iter().enumerate() {
+        let [l, dl, ddl] = [offsets[k], slopes[k], bends[k]];
         let Some(offset) = Offset::new(on.foot.kappa, on.foot.dkappa, [l, dl, ddl]) else {
             points.clear();
             return;
@@ -154,14 +163,13 @@ pub fn path(line: &LineTable, lateral: &Curve, from: f64, to: f64) -> Vec<PathPo
     let mut points: Vec<PathPoint> = Vec::new();
     let (mut s, mut place) = (from, 0);
     while s <= to.min(line.end()) {
-        let foot = line.at_next(s, &mut place);
+        let (foot, forward) = line.at_next(s, &mut place);
         let [l, dl, ddl, _] = lateral.at(s - from);
         let Some(offset) = Offset::new(foot.kappa, foot.dkappa, [l, dl, ddl]) else {
             break;
         };
-        let (sin, cos) = angle::sin_cos(foot.pose.theta);
         let theta = angle::wrap(foot.pose.theta + libm::atan2(offset.turn.1, offset.turn.0));
-        let pose = Pose::new(foot.pose.x - l * sin, foot.pose.y + l * cos, theta);
+        let pose = Pose::new(foot.pose.x - l * forward.y, foot.pose.y + l * forward.x, theta);
         let moved = |last: &PathPoint| last.distance + (pose.position() - last.pose.position()).norm();
         points.push(PathPoint {
             distance: points.last().map_or(0.0, moved),
