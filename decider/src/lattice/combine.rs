@@ -14,34 +14,43 @@ use crate::geometry::{Pose, Vec2, angle};
 /// A car that stands still moves at this speed, m/s, so that it has a direction.
 const LEAST_SPEED: f64 = 1e-6;
 
-/// One point of a longitudinal curve on its line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct OnLine {
-    t: f64,
-    foot: Foot,
-    forward: Vec2,
-    /// Speed and acceleration along the line.
-    speed: (f64, f64),
-}
+/// What belongs to each time of the grid.
+type Series = [f64; SAMPLES];
 
-/// A longitudinal curve on its line, as far as the line leads.
+/// A longitudinal curve on its line, as far as the line leads. Beyond that its numbers are 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LongitudinalTrack {
-    points: Vec<OnLine>,
+    /// The line's points under the curve, with the line's direction.
+    feet: Vec<(Foot, Vec2)>,
     /// Ways along the line since the start, m.
-    ways: [f64; SAMPLES],
+    ways: Series,
+    /// Curvature of the line and its change along it.
+    kappa: Series,
+    dkappa: Series,
+    /// Speed and acceleration along the line.
+    v: Series,
+    a: Series,
 }
 
 impl Default for LongitudinalTrack {
     fn default() -> Self {
-        Self {
-            points: Vec::with_capacity(SAMPLES),
-            ways: [0.0; SAMPLES],
-        }
+        Self::over(Vec::with_capacity(SAMPLES))
     }
 }
 
 impl LongitudinalTrack {
+    fn over(feet: Vec<(Foot, Vec2)>) -> Self {
+        let [ways, kappa, dkappa, v, a] = [[0.0; SAMPLES]; 5];
+        Self {
+            feet,
+            ways,
+            kappa,
+            dkappa,
+            v,
+            a,
+        }
+    }
+
     /// Lays a curve on a line. Where the curve goes back the car stands.
     pub fn new(curve: &Sampled, line: &LineTable) -> Self {
         let mut track = Self::default();
@@ -51,7 +60,8 @@ impl LongitudinalTrack {
 
     /// The same in place of what was laid before.
     pub fn lay(&mut self, curve: &Sampled, line: &LineTable) {
-        self.points.clear();
+        self.feet.clear();
+        *self = Self::over(std::mem::take(&mut self.feet));
         let start = curve.at[0][0];
         let (mut before, mut place) = (f64::NEG_INFINITY, 0);
         for (k, [s, v, a, _]) in curve.at.iter().enumerate() {
@@ -62,18 +72,101 @@ impl LongitudinalTrack {
             before = s;
             let (foot, forward) = line.at_next(s, &mut place);
             self.ways[k] = s - start;
-            self.points.push(OnLine {
-                t: TIMES[k],
-                foot,
-                forward,
-                speed: (v.max(LEAST_SPEED), *a),
-            });
+            (self.kappa[k], self.dkappa[k]) = (foot.kappa, foot.dkappa);
+            (self.v[k], self.a[k]) = (v.max(LEAST_SPEED), *a);
+            self.feet.push((foot, forward));
         }
     }
 
     /// The line's points under it.
     pub(super) fn positions(&self) -> impl Iterator<Item = Vec2> + '_ {
-        self.points.iter().map(|point| point.foot.pose.position())
+        self.feet.iter().map(|(foot, _)| foot.pose.position())
+    }
+}
+
+/// What a pair of curves asks of the car at each time of the grid, as far as the line leads. Where the car is then, only
+/// those are told who ask.
+#[derive(Clone, Debug)]
+pub(super) struct Motions {
+    len: usize,
+    l: Series,
+    /// Cosine and sine of the heading error.
+    cos: Series,
+    sin: Series,
+    kappa: Series,
+    v: Series,
+    a: Series,
+}
+
+impl Default for Motions {
+    fn default() -> Self {
+        let [l, cos, sin, kappa, v, a] = [[0.0; SAMPLES]; 6];
+        Self {
+            len: 0,
+            l,
+            cos,
+            sin,
+            kappa,
+            v,
+            a,
+        }
+    }
+}
+
+impl Motions {
+    /// The motions of a pair, in place of what was found before. Where the offset leads beyond the centre of a bend
+    /// there are none.
+    pub(super) fn find(&mut self, track: &LongitudinalTrack, lateral: &Curve) {
+        let [offsets, slopes, bends] = lateral.along(&track.ways);
+        let mut is_before_centre = true;
+        // Without branches, so that several times are worked out at once.
+        for k in 0..SAMPLES {
+            let l = [offsets[k], slopes[k], bends[k]];
+            let (q, offset) = Offset::unchecked(track.kappa[k], track.dkappa[k], l);
+            is_before_centre &= q > 0.0;
+            (self.l[k], self.kappa[k]) = (l[0], offset.kappa);
+            (self.cos[k], self.sin[k]) = offset.turn;
+            (self.v[k], self.a[k]) = offset.speed(track.v[k], track.a[k]);
+        }
+        self.len = if is_before_centre { track.feet.len() } else { 0 };
+    }
+
+    /// Number of times.
+    pub(super) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Time, speed, acceleration and curvature.
+    pub(super) fn dynamics(&self) -> impl Iterator<Item = [f64; 4]> + '_ {
+        (0..self.len).map(|k| [TIMES[k], self.v[k], self.a[k], self.kappa[k]])
+    }
+
+    /// Place of the rear axle and heading at a time.
+    #[inline]
+    pub(super) fn place(&self, track: &LongitudinalTrack, k: usize) -> (Vec2, Vec2) {
+        let (foot, along) = &track.feet[k];
+        let (l, cos, sin) = (self.l[k], self.cos[k], self.sin[k]);
+        (
+            Vec2::new(foot.pose.x - l * along.y, foot.pose.y + l * along.x),
+            Vec2::new(along.x * cos - along.y * sin, along.y * cos + along.x * sin),
+        )
+    }
+
+    /// All of it as points.
+    pub(super) fn points<'a>(&'a self, track: &'a LongitudinalTrack) -> impl Iterator<Item = Point> + 'a {
+        (0..self.len).map(|k| {
+            let (position, forward) = self.place(track, k);
+            Point {
+                t: TIMES[k],
+                position,
+                forward,
+                kappa: self.kappa[k],
+                v: self.v[k],
+                a: self.a[k],
+                s: track.feet[k].0.s,
+                l: self.l[k],
+            }
+        })
     }
 }
 
@@ -101,28 +194,10 @@ pub struct Point {
 /// The points of a pair, in place of what `points` holds. Where the offset leads beyond the centre of a bend there are
 /// none.
 pub fn combine(track: &LongitudinalTrack, lateral: &Curve, points: &mut Vec<Point>) {
+    let mut motions = Motions::default();
+    motions.find(track, lateral);
     points.clear();
-    let [offsets, slopes, bends] = lateral.along(&track.ways);
-    for (k, on) in track.points.iter().enumerate() {
-        let [l, dl, ddl] = [offsets[k], slopes[k], bends[k]];
-        let Some(offset) = Offset::new(on.foot.kappa, on.foot.dkappa, [l, dl, ddl]) else {
-            points.clear();
-            return;
-        };
-        let (cos, sin) = offset.turn;
-        let along = on.forward;
-        let (v, a) = offset.speed(on.speed.0, on.speed.1);
-        points.push(Point {
-            t: on.t,
-            position: Vec2::new(on.foot.pose.x - l * along.y, on.foot.pose.y + l * along.x),
-            forward: Vec2::new(along.x * cos - along.y * sin, along.y * cos + along.x * sin),
-            kappa: offset.kappa,
-            v,
-            a,
-            s: on.foot.s,
-            l,
-        });
-    }
+    points.extend(motions.points(track));
 }
 
 impl Point {
