@@ -5,7 +5,7 @@
 
 use super::cost::Sampled;
 use super::curve::Curve;
-use super::grid::{SAMPLES, TIMES};
+use super::grid::{SAMPLES, Series, TIMES};
 use super::line_table::LineTable;
 use crate::decision::{PathPoint, TrajectoryPoint};
 use crate::geometry::frenet::{Foot, Offset};
@@ -13,9 +13,6 @@ use crate::geometry::{Pose, Vec2, angle};
 
 /// A car that stands still moves at this speed, m/s, so that it has a direction.
 const LEAST_SPEED: f64 = 1e-6;
-
-/// What belongs to each time of the grid.
-type Series = [f64; SAMPLES];
 
 /// A longitudinal curve on its line, as far as the line leads. Beyond that its numbers are 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,7 +86,8 @@ impl LongitudinalTrack {
 #[derive(Clone, Debug)]
 pub(super) struct Motions {
     len: usize,
-    l: Series,
+    /// Offset from the line, its first and second derivative by station.
+    lateral: [Series; 3],
     /// Cosine and sine of the heading error.
     cos: Series,
     sin: Series,
@@ -100,10 +98,10 @@ pub(super) struct Motions {
 
 impl Default for Motions {
     fn default() -> Self {
-        let [l, cos, sin, kappa, v, a] = [[0.0; SAMPLES]; 6];
+        let [cos, sin, kappa, v, a] = [[0.0; SAMPLES]; 5];
         Self {
             len: 0,
-            l,
+            lateral: [[0.0; SAMPLES]; 3],
             cos,
             sin,
             kappa,
@@ -117,14 +115,14 @@ impl Motions {
     /// The motions of a pair, in place of what was found before. Where the offset leads beyond the centre of a bend
     /// there are none.
     pub(super) fn find(&mut self, track: &LongitudinalTrack, lateral: &Curve) {
-        let [offsets, slopes, bends] = lateral.along(&track.ways);
+        lateral.sample(&track.ways, &mut self.lateral);
         let mut is_before_centre = true;
         // Without branches, so that several times are worked out at once.
         for k in 0..SAMPLES {
-            let l = [offsets[k], slopes[k], bends[k]];
+            let l = [self.lateral[0][k], self.lateral[1][k], self.lateral[2][k]];
             let (q, offset) = Offset::unchecked(track.kappa[k], track.dkappa[k], l);
             is_before_centre &= q > 0.0;
-            (self.l[k], self.kappa[k]) = (l[0], offset.kappa);
+            self.kappa[k] = offset.kappa;
             (self.cos[k], self.sin[k]) = offset.turn;
             (self.v[k], self.a[k]) = offset.speed(track.v[k], track.a[k]);
         }
@@ -145,7 +143,7 @@ impl Motions {
     #[inline]
     pub(super) fn place(&self, track: &LongitudinalTrack, k: usize) -> (Vec2, Vec2) {
         let (foot, along) = &track.feet[k];
-        let (l, cos, sin) = (self.l[k], self.cos[k], self.sin[k]);
+        let (l, cos, sin) = (self.lateral[0][k], self.cos[k], self.sin[k]);
         (
             Vec2::new(foot.pose.x - l * along.y, foot.pose.y + l * along.x),
             Vec2::new(along.x * cos - along.y * sin, along.y * cos + along.x * sin),
@@ -164,7 +162,7 @@ impl Motions {
                 v: self.v[k],
                 a: self.a[k],
                 s: track.feet[k].0.s,
-                l: self.l[k],
+                l: self.lateral[0][k],
             }
         })
     }

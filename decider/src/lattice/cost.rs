@@ -163,9 +163,11 @@ impl LateralProfile {
 /// The largest acceleration across the line of a pair, m/s².
 pub fn lateral_comfort(longitudinal: &Sampled, lateral: &Curve) -> f64 {
     let start = longitudinal.at[0][0];
-    let [_, slopes, bends] = lateral.along(&longitudinal.at.map(|[s, ..]| s - start));
+    let mut across = [[0.0; SAMPLES]; 3];
+    lateral.sample(&longitudinal.at.map(|[s, ..]| s - start), &mut across);
+    let [_, slopes, bends] = &across;
     let mut largest = 0.0;
-    for (([_, v, a, _], dl), ddl) in longitudinal.at.iter().zip(&slopes).zip(&bends) {
+    for (([_, v, a, _], dl), ddl) in longitudinal.at.iter().zip(slopes).zip(bends) {
         let across = (ddl * v * v + dl * a).abs();
         if across > largest {
             largest = across;

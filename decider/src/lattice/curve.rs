@@ -1,6 +1,6 @@
 //! Motion in one dimension: `s(t)` or `l(s)`, continued beyond its end with the acceleration that it ends with.
 
-use super::grid::SAMPLES;
+use super::grid::{SAMPLES, Series};
 use super::piecewise::Piecewise;
 use crate::geometry::Polynomial;
 
@@ -60,22 +60,26 @@ impl Curve {
         [x + v * beyond + 0.5 * a * beyond * beyond, v + a * beyond, a, 0.0]
     }
 
-    /// Value, first and second derivative at many parameters, each in an array of its own: one loop per shape.
-    pub(super) fn along(&self, at: &[f64; SAMPLES]) -> [[f64; SAMPLES]; 3] {
+    /// Value, first and second derivative at the times of the grid, whose parameters are `at`: one loop per shape.
+    pub(super) fn sample(&self, at: &Series, into: &mut [Series; 3]) {
         match &self.shape {
-            Shape::Polynomial(polynomial) => self.each(at, |p| polynomial.at(p)),
+            Shape::Polynomial(polynomial) => self.each(at, into, |p| polynomial.at(p)),
             Shape::Piecewise(piecewise) => {
                 let mut place = 0;
-                self.each(at, |p| piecewise.at_next(p, &mut place))
+                self.each(at, into, |p| piecewise.at_next(p, &mut place));
             }
-            Shape::Deceleration(deceleration) => self.each(at, |p| deceleration.at(p)),
+            Shape::Deceleration(deceleration) => self.each(at, into, |p| deceleration.at(p)),
         }
     }
 
     /// The same as [`Curve::at`], without a branch.
     #[inline]
-    fn each(&self, at: &[f64; SAMPLES], mut shape: impl FnMut(f64) -> [f64; 4]) -> [[f64; SAMPLES]; 3] {
-        let [mut values, mut slopes, mut bends] = [[0.0; SAMPLES]; 3];
+    fn each(
+        &self,
+        at: &Series,
+        [values, slopes, bends]: &mut [Series; 3],
+        mut shape: impl FnMut(f64) -> [f64; 4],
+    ) {
         for k in 0..SAMPLES {
             let inside = if at[k] < self.length { at[k] } else { self.length };
             let beyond = at[k] - inside;
@@ -84,7 +88,6 @@ impl Curve {
             slopes[k] = v + a * beyond;
             bends[k] = a;
         }
-        [values, slopes, bends]
     }
 }
 
