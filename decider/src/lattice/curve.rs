@@ -143,3 +143,27 @@ impl ConstantDeceleration {
         [self.s + (v + self.v) * 0.5 * t, v, -self.braking, 0.0]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_of_every_shape_are_what_it_is_there() {
+        let polynomial = Polynomial::quintic([0.3, -0.1, 0.02], [0.5, 0.0, 0.01], 20.0).unwrap();
+        let pieces = Piecewise::of_jerks([0.3, -0.1, 0.02], &[(0.1, 3.0), (-0.2, 4.0), (0.05, 9.0)]).unwrap();
+        let braking = ConstantDeceleration::new(3.0, 8.0, -0.5).unwrap();
+        // There and back, and beyond every end.
+        let at = std::array::from_fn(|k| (k as f64 * 0.9) % 37.0);
+        for curve in [Curve::from(polynomial), pieces.into(), braking.into()] {
+            let mut into = [[0.0; SAMPLES]; 3];
+            curve.sample(&at, &mut into);
+            for (k, p) in at.iter().enumerate() {
+                let [x, v, a, _] = curve.at(*p);
+                for (got, wanted) in into.iter().map(|series| series[k]).zip([x, v, a]) {
+                    assert!((got - wanted).abs() < 1e-12, "{curve:?} at {p}");
+                }
+            }
+        }
+    }
+}
