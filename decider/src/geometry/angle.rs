@@ -1,6 +1,10 @@
 //! Angles in radians, counter-clockwise, normalised to `(-π, π]`.
 
+use super::Vec2;
 use std::f64::consts::PI;
+
+/// Largest turn for which series of the sine and the cosine are exact to the last digit, rad.
+const SMALL_TURN: f64 = 0.125;
 
 /// The same direction in `(-π, π]`. Not-a-number stays not-a-number.
 pub fn wrap(theta: f64) -> f64 {
@@ -26,6 +30,21 @@ pub fn sin_cos(theta: f64) -> (f64, f64) {
     libm::sincos(theta)
 }
 
+/// A vector turned to the left.
+#[inline]
+pub(crate) fn turned(v: Vec2, by: f64) -> Vec2 {
+    let (sin, cos) = if by.abs() <= SMALL_TURN {
+        let q = by * by;
+        (
+            by * (1.0 + q * (-1.0 / 6.0 + q * (1.0 / 120.0 + q * (-1.0 / 5040.0 + q / 362_880.0)))),
+            1.0 + q * (-0.5 + q * (1.0 / 24.0 + q * (-1.0 / 720.0 + q * (1.0 / 40_320.0 - q / 3_628_800.0)))),
+        )
+    } else {
+        sin_cos(by)
+    };
+    Vec2::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -42,5 +61,16 @@ mod tests {
             }
         }
         assert!((wrap(-PI) - PI).abs() < 1e-15);
+    }
+
+    #[test]
+    fn turning_a_vector_is_exact_up_to_rounding() {
+        for k in -300..=300 {
+            let by = f64::from(k) * 0.01;
+            let (sin, cos) = sin_cos(by);
+            let v = turned(Vec2::new(0.6, -0.8), by);
+            let exact = Vec2::new(0.6 * cos + 0.8 * sin, 0.6 * sin - 0.8 * cos);
+            assert!((v - exact).norm() < 3e-16, "{by}: {v} {exact}");
+        }
     }
 }

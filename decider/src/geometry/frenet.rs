@@ -62,26 +62,34 @@ pub struct Offset {
 
 impl Offset {
     /// At an offset with its derivatives; `None` at or beyond the centre of the bend.
-    pub fn new(foot_kappa: f64, foot_dkappa: f64, [l, dl, ddl]: [f64; 3]) -> Option<Self> {
+    pub fn new(foot_kappa: f64, foot_dkappa: f64, l: [f64; 3]) -> Option<Self> {
+        let (q, offset) = Self::unchecked(foot_kappa, foot_dkappa, l);
+        (q > 0.0).then_some(offset)
+    }
+
+    /// The same after `q`, without a branch. At or beyond the centre of the bend, where that is not positive, it means
+    /// nothing.
+    #[inline]
+    pub(crate) fn unchecked(foot_kappa: f64, foot_dkappa: f64, [l, dl, ddl]: [f64; 3]) -> (f64, Self) {
         let q = 1.0 - foot_kappa * l;
-        if q.is_nan() || q <= 0.0 {
-            return None;
-        }
         let m = foot_dkappa * l + foot_kappa * dl;
         // The length of the tangent (q, l'): path length per station.
-        let square = q * q + dl * dl;
-        let stretch = square.sqrt();
-        let kappa = ((ddl * q + m * dl) / square + foot_kappa) / stretch;
-        let turn_rate = stretch * kappa - foot_kappa;
-        Some(Self {
-            turn: (q / stretch, dl / stretch),
+        let stretch = (q * q + dl * dl).sqrt();
+        // One division for both reciprocals: hundreds of thousands of offsets are looked at in a second.
+        let per_both = 1.0 / (q * stretch);
+        let (per_stretch, per_q) = (per_both * q, per_both * stretch);
+        let turn_rate = (ddl * q + m * dl) * per_stretch * per_stretch;
+        let offset = Self {
+            turn: (q * per_stretch, dl * per_stretch),
             stretch,
-            kappa,
-            drift: (dl * turn_rate - m) / (q / stretch),
-        })
+            kappa: (turn_rate + foot_kappa) * per_stretch,
+            drift: (dl * turn_rate - m) * stretch * per_q,
+        };
+        (q, offset)
     }
 
     /// Speed and acceleration along the path of a motion along the line.
+    #[inline]
     pub fn speed(&self, s_dot: f64, s_ddot: f64) -> (f64, f64) {
         (
             s_dot.abs() * self.stretch,

@@ -168,10 +168,22 @@ impl CollisionEnvironment {
 impl Near {
     /// The first obstacle that a trajectory touches.
     pub fn touched(&self, points: &[Point], ego: &Footprint) -> Option<ObstacleId> {
-        let spans = self.starts.windows(2).map(|pair| &self.boxes[pair[0]..pair[1]]);
-        points.iter().zip(spans).find_map(|(point, boxes)| {
-            let meets = |other: &&GrownBox| ego.meets(point.position, point.forward, other);
-            boxes.iter().find(meets).map(|other| other.id)
+        self.touched_at(points.len(), ego, |k| (points[k].position, points[k].forward))
+    }
+
+    /// The same for a trajectory of so many points that tells place and heading of those that matter.
+    pub(super) fn touched_at(
+        &self,
+        points: usize,
+        ego: &Footprint,
+        place: impl Fn(usize) -> (Vec2, Vec2),
+    ) -> Option<ObstacleId> {
+        let spans = self.starts.windows(2).take(points).enumerate();
+        spans.filter(|(_, span)| span[0] < span[1]).find_map(|(k, span)| {
+            let (position, forward) = place(k);
+            let meets = |other: &&GrownBox| ego.meets(position, forward, other);
+            let met = self.boxes[span[0]..span[1]].iter().find(meets);
+            met.map(|other| other.id)
         })
     }
 }

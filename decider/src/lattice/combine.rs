@@ -5,7 +5,7 @@
 
 use super::cost::Sampled;
 use super::curve::Curve;
-use super::grid::TIMES;
+use super::grid::{SAMPLES, Series, TIMES};
 use super::line_table::LineTable;
 use crate::decision::{PathPoint, TrajectoryPoint};
 use crate::geometry::frenet::{Foot, Offset};
@@ -14,25 +14,40 @@ use crate::geometry::{Pose, Vec2, angle};
 /// A car that stands still moves at this speed, m/s, so that it has a direction.
 const LEAST_SPEED: f64 = 1e-6;
 
-/// One point of a longitudinal curve on its line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct OnLine {
-    t: f64,
-    foot: Foot,
-    forward: Vec2,
-    /// Way along the line since the start, m.
-    way: f64,
+/// A longitudinal curve on its line, as far as the line leads. Beyond that its numbers are 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LongitudinalTrack {
+    /// The line's points under the curve, with the line's direction.
+    feet: Vec<(Foot, Vec2)>,
+    /// Ways along the line since the start, m.
+    ways: Series,
+    /// Curvature of the line and its change along it.
+    kappa: Series,
+    dkappa: Series,
     /// Speed and acceleration along the line.
-    speed: (f64, f64),
+    v: Series,
+    a: Series,
 }
 
-/// A longitudinal curve on its line, as far as the line leads.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct LongitudinalTrack {
-    points: Vec<OnLine>,
+impl Default for LongitudinalTrack {
+    fn default() -> Self {
+        Self::over(Vec::with_capacity(SAMPLES))
+    }
 }
 
 impl LongitudinalTrack {
+    fn over(feet: Vec<(Foot, Vec2)>) -> Self {
+        let [ways, kappa, dkappa, v, a] = [[0.0; SAMPLES]; 5];
+        Self {
+            feet,
+            ways,
+            kappa,
+            dkappa,
+            v,
+            a,
+        }
+    }
+
     /// Lays a curve on a line. Where the curve goes back the car stands.
     pub fn new(curve: &Sampled, line: &LineTable) -> Self {
         let mut track = Self::default();
@@ -42,30 +57,114 @@ impl LongitudinalTrack {
 
     /// The same in place of what was laid before.
     pub fn lay(&mut self, curve: &Sampled, line: &LineTable) {
-        self.points.clear();
+        self.feet.clear();
+        *self = Self::over(std::mem::take(&mut self.feet));
         let start = curve.at[0][0];
         let (mut before, mut place) = (f64::NEG_INFINITY, 0);
-        for (t, [s, v, a, _]) in TIMES.iter().zip(&curve.at) {
+        for (k, [s, v, a, _]) in curve.at.iter().enumerate() {
             let s = s.max(before);
             if s > line.end() {
                 break;
             }
             before = s;
-            let foot = line.at_next(s, &mut place);
-            let speed = (v.max(LEAST_SPEED), *a);
-            self.points.push(OnLine {
-                t: *t,
-                foot,
-                forward: foot.pose.forward(),
-                way: s - start,
-                speed,
-            });
+            let (foot, forward) = line.at_next(s, &mut place);
+            self.ways[k] = s - start;
+            (self.kappa[k], self.dkappa[k]) = (foot.kappa, foot.dkappa);
+            (self.v[k], self.a[k]) = (v.max(LEAST_SPEED), *a);
+            self.feet.push((foot, forward));
         }
     }
 
     /// The line's points under it.
     pub(super) fn positions(&self) -> impl Iterator<Item = Vec2> + '_ {
-        self.points.iter().map(|point| point.foot.pose.position())
+        self.feet.iter().map(|(foot, _)| foot.pose.position())
+    }
+}
+
+/// What a pair of curves asks of the car at each time of the grid, as far as the line leads. Where the car is then, only
+/// those are told who ask.
+#[derive(Clone, Debug)]
+pub(super) struct Motions {
+    len: usize,
+    /// Offset from the line, its first and second derivative by station.
+    lateral: [Series; 3],
+    /// Cosine and sine of the heading error.
+    cos: Series,
+    sin: Series,
+    kappa: Series,
+    v: Series,
+    a: Series,
+}
+
+impl Default for Motions {
+    fn default() -> Self {
+        let [cos, sin, kappa, v, a] = [[0.0; SAMPLES]; 5];
+        Self {
+            len: 0,
+            lateral: [[0.0; SAMPLES]; 3],
+            cos,
+            sin,
+            kappa,
+            v,
+            a,
+        }
+    }
+}
+
+impl Motions {
+    /// The motions of a pair, in place of what was found before. Where the offset leads beyond the centre of a bend
+    /// there are none.
+    pub(super) fn find(&mut self, track: &LongitudinalTrack, lateral: &Curve) {
+        lateral.sample(&track.ways, &mut self.lateral);
+        let mut is_before_centre = true;
+        // Without branches, so that several times are worked out at once.
+        for k in 0..SAMPLES {
+            let l = [self.lateral[0][k], self.lateral[1][k], self.lateral[2][k]];
+            let (q, offset) = Offset::unchecked(track.kappa[k], track.dkappa[k], l);
+            is_before_centre &= q > 0.0;
+            self.kappa[k] = offset.kappa;
+            (self.cos[k], self.sin[k]) = offset.turn;
+            (self.v[k], self.a[k]) = offset.speed(track.v[k], track.a[k]);
+        }
+        self.len = if is_before_centre { track.feet.len() } else { 0 };
+    }
+
+    /// Number of times.
+    pub(super) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Time, speed, acceleration and curvature.
+    pub(super) fn dynamics(&self) -> impl Iterator<Item = [f64; 4]> + '_ {
+        (0..self.len).map(|k| [TIMES[k], self.v[k], self.a[k], self.kappa[k]])
+    }
+
+    /// Place of the rear axle and heading at a time.
+    #[inline]
+    pub(super) fn place(&self, track: &LongitudinalTrack, k: usize) -> (Vec2, Vec2) {
+        let (foot, along) = &track.feet[k];
+        let (l, cos, sin) = (self.lateral[0][k], self.cos[k], self.sin[k]);
+        (
+            Vec2::new(foot.pose.x - l * along.y, foot.pose.y + l * along.x),
+            Vec2::new(along.x * cos - along.y * sin, along.y * cos + along.x * sin),
+        )
+    }
+
+    /// All of it as points.
+    pub(super) fn points<'a>(&'a self, track: &'a LongitudinalTrack) -> impl Iterator<Item = Point> + 'a {
+        (0..self.len).map(|k| {
+            let (position, forward) = self.place(track, k);
+            Point {
+                t: TIMES[k],
+                position,
+                forward,
+                kappa: self.kappa[k],
+                v: self.v[k],
+                a: self.a[k],
+                s: track.feet[k].0.s,
+                l: self.lateral[0][k],
+            }
+        })
     }
 }
 
@@ -93,27 +192,10 @@ pub struct Point {
 /// The points of a pair, in place of what `points` holds. Where the offset leads beyond the centre of a bend there are
 /// none.
 pub fn combine(track: &LongitudinalTrack, lateral: &Curve, points: &mut Vec<Point>) {
+    let mut motions = Motions::default();
+    motions.find(track, lateral);
     points.clear();
-    for on in &track.points {
-        let [l, dl, ddl, _] = lateral.at(on.way);
-        let Some(offset) = Offset::new(on.foot.kappa, on.foot.dkappa, [l, dl, ddl]) else {
-            points.clear();
-            return;
-        };
-        let (cos, sin) = offset.turn;
-        let along = on.forward;
-        let (v, a) = offset.speed(on.speed.0, on.speed.1);
-        points.push(Point {
-            t: on.t,
-            position: Vec2::new(on.foot.pose.x - l * along.y, on.foot.pose.y + l * along.x),
-            forward: Vec2::new(along.x * cos - along.y * sin, along.y * cos + along.x * sin),
-            kappa: offset.kappa,
-            v,
-            a,
-            s: on.foot.s,
-            l,
-        });
-    }
+    points.extend(motions.points(track));
 }
 
 impl Point {
@@ -154,14 +236,13 @@ pub fn path(line: &LineTable, lateral: &Curve, from: f64, to: f64) -> Vec<PathPo
     let mut points: Vec<PathPoint> = Vec::new();
     let (mut s, mut place) = (from, 0);
     while s <= to.min(line.end()) {
-        let foot = line.at_next(s, &mut place);
+        let (foot, forward) = line.at_next(s, &mut place);
         let [l, dl, ddl, _] = lateral.at(s - from);
         let Some(offset) = Offset::new(foot.kappa, foot.dkappa, [l, dl, ddl]) else {
             break;
         };
-        let (sin, cos) = angle::sin_cos(foot.pose.theta);
         let theta = angle::wrap(foot.pose.theta + libm::atan2(offset.turn.1, offset.turn.0));
-        let pose = Pose::new(foot.pose.x - l * sin, foot.pose.y + l * cos, theta);
+        let pose = Pose::new(foot.pose.x - l * forward.y, foot.pose.y + l * forward.x, theta);
         let moved = |last: &PathPoint| last.distance + (pose.position() - last.pose.position()).norm();
         points.push(PathPoint {
             distance: points.last().map_or(0.0, moved),

@@ -60,7 +60,7 @@ pub fn keeps_lateral_limits(lateral: &Curve, longitudinal: &Curve) -> bool {
 
 /// The first thing that a trajectory does within the horizon that it may not: first among its points, then among its
 /// pairs of points. A point is time, speed, acceleration and curvature.
-pub fn violation(points: impl Iterator<Item = [f64; 4]> + Clone) -> Option<Violation> {
+pub fn violation(points: impl Iterator<Item = [f64; 4]>) -> Option<Violation> {
     let points = points.take_while(|[t, ..]| *t <= HORIZON);
     let inside = |value: f64, (low, high): (f64, f64)| value >= low && value <= high;
     let of_point = |[_, v, a, kappa]: Dynamics| {
@@ -83,11 +83,18 @@ pub fn violation(points: impl Iterator<Item = [f64; 4]> + Clone) -> Option<Viola
             None
         }
     };
-    let mut pairs = points.clone().zip(points.clone().skip(1));
-    points
-        .clone()
-        .find_map(of_point)
-        .or_else(|| pairs.find_map(of_pair))
+    let (mut last, mut between) = (None, None);
+    for point in points {
+        let violates = of_point(point);
+        if violates.is_some() {
+            return violates;
+        }
+        if let (Some(last), None) = (last, between) {
+            between = of_pair((last, point));
+        }
+        last = Some(point);
+    }
+    between
 }
 
 /// Whether a curvature is one that the car can drive.

@@ -163,9 +163,15 @@ impl LateralProfile {
 /// The largest acceleration across the line of a pair, m/s².
 pub fn lateral_comfort(longitudinal: &Sampled, lateral: &Curve) -> f64 {
     let start = longitudinal.at[0][0];
-    let across = |[s, v, a, _]: &[f64; 4]| {
-        let [_, dl, ddl, _] = lateral.at(s - start);
-        (ddl * v * v + dl * a).abs()
-    };
-    longitudinal.at.iter().map(across).fold(0.0, f64::max)
+    let mut across = [[0.0; SAMPLES]; 3];
+    lateral.sample(&longitudinal.at.map(|[s, ..]| s - start), &mut across);
+    let [_, slopes, bends] = &across;
+    let mut largest = 0.0;
+    for (([_, v, a, _], dl), ddl) in longitudinal.at.iter().zip(slopes).zip(bends) {
+        let across = (ddl * v * v + dl * a).abs();
+        if across > largest {
+            largest = across;
+        }
+    }
+    largest
 }

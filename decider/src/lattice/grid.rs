@@ -9,6 +9,9 @@ const STEP: f64 = 0.1;
 /// Number of samples.
 pub const SAMPLES: usize = 81;
 
+/// What belongs to each sample.
+pub(super) type Series = [f64; SAMPLES];
+
 /// The times, s. They are added up as the original's are, so that the last one lies just before 8 and a curve of 8 s has
 /// not ended there: its jerk counts to the end.
 pub const TIMES: [f64; SAMPLES] = added_up();

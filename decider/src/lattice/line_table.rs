@@ -1,5 +1,6 @@
 //! A line by points: what belongs to a station, and the station that belongs to a point (the original's `PathMatcher`).
 
+use crate::geometry::angle::turned;
 use crate::geometry::frenet::Foot;
 use crate::geometry::{Pose, Vec2, angle};
 use crate::reference_line::{LineQuery, SlPoint};
@@ -27,6 +28,8 @@ pub fn foot_on<L: LineQuery + ?Sized>(line: &L, s: f64) -> Foot {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LineTable {
     feet: Vec<Foot>,
+    /// The direction of the line at each, as a unit vector.
+    forward: Vec<Vec2>,
     /// Whether the pieces between points are arcs, as those of a smooth line are, or straight.
     has_arcs: bool,
 }
@@ -35,7 +38,8 @@ impl LineTable {
     /// Straight pieces between points, as the original has them; `None` for fewer than two, or out of order.
     pub fn polyline(feet: Vec<Foot>) -> Option<Self> {
         let ordered = feet.windows(2).all(|pair| pair[1].s > pair[0].s);
-        (feet.len() >= 2 && ordered).then_some(Self {
+        (feet.len() >= 2 && ordered).then(|| Self {
+            forward: feet.iter().map(|foot| foot.pose.forward()).collect(),
             feet,
             has_arcs: false,
         })
@@ -76,21 +80,22 @@ impl LineTable {
 
     /// What belongs to a station; the ends' beyond them.
     pub fn at(&self, s: f64) -> Foot {
-        self.at_place(self.feet.partition_point(|foot| foot.s < s), s)
+        self.at_place(self.feet.partition_point(|foot| foot.s < s), s).0
     }
 
-    /// The same for a station at or beyond the last one that was asked for, whose place is in `hint`.
-    pub fn at_next(&self, s: f64, hint: &mut usize) -> Foot {
+    /// The same, with the line's direction as a unit vector, for a station at or beyond the last one that was asked for,
+    /// whose place is in `hint`.
+    pub fn at_next(&self, s: f64, hint: &mut usize) -> (Foot, Vec2) {
         while *hint < self.feet.len() && self.feet[*hint].s < s {
             *hint += 1;
         }
         self.at_place(*hint, s)
     }
 
-    fn at_place(&self, above: usize, s: f64) -> Foot {
+    fn at_place(&self, above: usize, s: f64) -> (Foot, Vec2) {
         match (above, self.feet.get(above)) {
-            (_, None) => self.feet[above - 1],
-            (0, Some(first)) => *first,
+            (_, None) => (self.feet[above - 1], self.forward[above - 1]),
+            (0, Some(first)) => (*first, self.forward[0]),
             (_, Some(_)) => self.between(above - 1, above, s),
         }
     }
@@ -127,7 +132,7 @@ impl LineTable {
         let (a, b) = (&self.feet[low], &self.feet[high]);
         let chord = b.pose.position() - a.pose.position();
         let along = (point - a.pose.position()).dot(&chord) / chord.norm();
-        self.between(low, high, a.s + along)
+        self.between(low, high, a.s + along).0
     }
 
     /// Frenet coordinates of a point.
@@ -137,7 +142,7 @@ impl LineTable {
         SlPoint { s: foot.s, l }
     }
 
-    fn between(&self, low: usize, high: usize, s: f64) -> Foot {
+    fn between(&self, low: usize, high: usize, s: f64) -> (Foot, Vec2) {
         let (a, b) = (&self.feet[low], &self.feet[high]);
         let length = b.s - a.s;
         let share = (s - a.s) / length;
@@ -146,16 +151,17 @@ impl LineTable {
         let theta = angle::wrap(a.pose.theta + turn * share);
         let kappa = mix(a.kappa, b.kappa);
         let (mut x, mut y) = (mix(a.pose.x, b.pose.x), mix(a.pose.y, b.pose.y));
+        let forward = turned(self.forward[low], turn * share);
         if self.has_arcs {
             let bulge = 0.5 * turn * length * share * (share - 1.0);
-            let (sin, cos) = angle::sin_cos(theta);
-            (x, y) = (x - bulge * sin, y + bulge * cos);
+            (x, y) = (x - bulge * forward.y, y + bulge * forward.x);
         }
-        Foot {
+        let foot = Foot {
             s,
             pose: Pose::new(x, y, theta),
             kappa,
             dkappa: mix(a.dkappa, b.dkappa),
-        }
+        };
+        (foot, forward)
     }
 }

@@ -3,7 +3,7 @@
 //! An obstacle is a quadrilateral in the `(t, s)` plane, from where it is when it comes into the lane to where it is when
 //! it leaves it. In the original the corners were lost and the graph was always empty.
 
-use super::grid::{HORIZON, SAMPLES, TIMES};
+use super::grid::{HORIZON, TIMES};
 use super::lateral_bounds::StaticBox;
 use super::prediction::pose_at;
 use crate::frame::{Obstacle, ObstacleId};
@@ -22,6 +22,9 @@ const DENSITY: f64 = 1.0;
 
 /// Times nearer than this are one, s.
 const SAME_TIME: f64 = 1e-6;
+
+/// By less than this the lane widens or narrows between two places of a body that are about abreast, m.
+const WIDENING: f64 = 0.2;
 
 /// Half-widths of the lane (left, right) at a station, m; `None` where it is not known.
 pub type LaneWidth<'a> = &'a dyn Fn(f64) -> Option<(f64, f64)>;
@@ -119,9 +122,11 @@ impl PathTimeGraph {
     }
 
     fn add_standing(&mut self, obstacle: &Obstacle, survey: &Survey) {
-        let Some(extent) = survey.extent(obstacle, obstacle.pose, radius(obstacle), &mut None) else {
+        let pose = Posed::from(obstacle.pose);
+        let extent = survey.extent(&Body::of(obstacle), pose, &mut { f64::NAN });
+        if !survey.touches(&extent) {
             return;
-        };
+        }
         let (s, l) = (extent.s, extent.l);
         self.entries.push(PathTimeEntry {
             id: obstacle.id,
@@ -151,6 +156,12 @@ impl PathTimeGraph {
     }
 }
 
+impl Extent {
+    fn pair(&self, t: f64) -> StPair {
+        StPair::new(t, self.s.0, self.s.1)
+    }
+}
+
 /// What obstacles are held against.
 struct Survey<'a> {
     s: f64,
@@ -159,56 +170,135 @@ struct Survey<'a> {
 }
 
 impl Survey<'_> {
-    /// The extent of a body at a pose, if it touches the lane ahead. `near` is the station of its middle a moment ago.
-    fn extent(&self, obstacle: &Obstacle, pose: Pose, radius: f64, near: &mut Option<f64>) -> Option<Extent> {
-        let middle = (self.project)(pose.position(), near.unwrap_or(f64::NAN));
-        *near = Some(middle.s);
-        // No corner is farther from the middle than the radius, so none is nearer to the line by more.
-        let (left, right) = (self.lane_width)(middle.s).unwrap_or((HALF_WIDTH, HALF_WIDTH));
-        if middle.l.abs() - radius > 2.0 * left.max(right) {
-            return None;
-        }
+    /// The extent of a body at a pose. `near` is a station of it a moment ago, not-a-number if there is none.
+    fn extent(&self, body: &Body, pose: Posed, near: &mut f64) -> Extent {
+        *near = (self.project)(pose.position, *near).s;
         let mut extent = Extent {
             s: (f64::MAX, -f64::MAX),
             l: (f64::MAX, -f64::MAX),
         };
-        for vertex in obstacle.shape.vertices() {
-            let at = (self.project)(pose.to_world(*vertex), middle.s);
+        for vertex in body.vertices {
+            let at = (self.project)(pose.to_world(*vertex), *near);
             extent.s = (extent.s.0.min(at.s), extent.s.1.max(at.s));
             extent.l = (extent.l.0.min(at.l), extent.l.1.max(at.l));
         }
-        let (left, right) = (self.lane_width)(extent.s.0).unwrap_or((HALF_WIDTH, HALF_WIDTH));
+        extent
+    }
+
+    /// Whether something of this extent touches the lane ahead.
+    fn touches(&self, extent: &Extent) -> bool {
+        let (left, right) = self.widths(extent.s.0);
         let beside = extent.l.0 > left || extent.l.1 < -right;
         let beyond = extent.s.0 > self.s + RANGE || extent.s.1 < self.s;
-        (!beside && !beyond).then_some(extent)
+        !beside && !beyond
+    }
+
+    fn widths(&self, s: f64) -> (f64, f64) {
+        (self.lane_width)(s).unwrap_or((HALF_WIDTH, HALF_WIDTH))
     }
 
     fn moving(&self, obstacle: &Obstacle) -> Option<PathTimeEntry> {
-        let radius = radius(obstacle);
-        let (mut near, mut place) = (None, 0);
-        let mut entry: Option<PathTimeEntry> = None;
-        for t in &TIMES[..SAMPLES] {
-            let pose = pose_at(&obstacle.prediction, *t, &mut place)?;
-            match (self.extent(obstacle, pose, radius, &mut near), &mut entry) {
-                (Some(extent), known) => {
-                    let pair = StPair::new(*t, extent.s.0, extent.s.1);
-                    let enters = known.map_or(pair, |known| known.enters);
-                    entry = Some(PathTimeEntry {
-                        id: obstacle.id,
-                        enters,
-                        leaves: pair,
-                    });
+        let body = Body::of(obstacle);
+        let (mut near, mut place) = (f64::NAN, 0);
+        // What is in the lane is measured when it comes and when it leaves; between that it only has to be there.
+        let mut enters: Option<StPair> = None;
+        let mut last = None;
+        for t in &TIMES {
+            let pose = Posed::from(pose_at(&obstacle.prediction, *t, &mut place)?);
+            let touches = match self.at_a_glance(&body, pose, &mut near) {
+                Some(touches) => touches,
+                None => self.touches(&self.extent(&body, pose, &mut near)),
+            };
+            if touches {
+                if enters.is_none() {
+                    enters = Some(self.extent(&body, pose, &mut near).pair(*t));
                 }
-                (None, Some(_)) => break,
-                (None, None) => {}
+                last = Some((*t, pose));
+            } else if last.is_some() {
+                break;
             }
         }
-        entry
+        let (t, pose) = last?;
+        Some(PathTimeEntry {
+            id: obstacle.id,
+            enters: enters?,
+            leaves: self.extent(&body, pose, &mut near).pair(t),
+        })
+    }
+
+    /// Whether a body touches the lane ahead, if its two ends tell; most do.
+    fn at_a_glance(&self, body: &Body, pose: Posed, near: &mut f64) -> Option<bool> {
+        let back = (self.project)(pose.to_world(body.back), *near);
+        *near = back.s;
+        let ahead = (self.s..=self.s + RANGE).contains(&back.s);
+        let (left, right) = self.widths(back.s);
+        if ahead && back.l < left - WIDENING && back.l > WIDENING - right {
+            return Some(true);
+        }
+        let front = (self.project)(pose.to_world(body.front), back.s);
+        let (low, high) = (back.l.min(front.l), back.l.max(front.l));
+        let (left, right) = self.widths(back.s.min(front.s));
+        let beside = low - body.beside > left + WIDENING || high + body.beside < -right - WIDENING;
+        beside.then_some(false)
     }
 }
 
-/// Radius of a circle around the middle of an obstacle, m.
-fn radius(obstacle: &Obstacle) -> f64 {
-    let corners = obstacle.shape.vertices().iter();
-    corners.map(nalgebra::Matrix::norm).fold(0.0, f64::max)
+/// An obstacle's outline in its own frame.
+struct Body<'a> {
+    vertices: &'a [Vec2],
+    /// The middles of the vertices at its back and at its front.
+    back: Vec2,
+    front: Vec2,
+    /// How far a vertex is at most from the nearer of these two, m. Nor is it nearer to the line by more.
+    beside: f64,
+}
+
+impl<'a> Body<'a> {
+    fn of(obstacle: &'a Obstacle) -> Self {
+        let vertices = obstacle.shape.vertices();
+        let middle_of = |half: &dyn Fn(&Vec2) -> bool| {
+            let (sum, count) = vertices
+                .iter()
+                .filter(|vertex| half(vertex))
+                .fold((Vec2::zeros(), 0.0), |(sum, count), vertex| {
+                    (sum + vertex, count + 1.0)
+                });
+            sum / f64::max(count, 1.0)
+        };
+        let middle = middle_of(&|_| true);
+        let (back, front) = (
+            middle_of(&|vertex| vertex.x <= middle.x),
+            middle_of(&|vertex| vertex.x >= middle.x),
+        );
+        let from_end = |vertex: &Vec2| (vertex - back).norm().min((vertex - front).norm());
+        Self {
+            vertices,
+            back,
+            front,
+            beside: vertices.iter().map(from_end).fold(0.0, f64::max),
+        }
+    }
+}
+
+/// A pose with its direction, for many points of one body.
+#[derive(Clone, Copy)]
+struct Posed {
+    position: Vec2,
+    forward: Vec2,
+}
+
+impl From<Pose> for Posed {
+    fn from(pose: Pose) -> Self {
+        Self {
+            position: pose.position(),
+            forward: pose.forward(),
+        }
+    }
+}
+
+impl Posed {
+    fn to_world(self, local: Vec2) -> Vec2 {
+        let left = Vec2::new(-self.forward.y, self.forward.x);
+        self.position + self.forward * local.x + left * local.y
+    }
 }

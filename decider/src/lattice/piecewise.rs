@@ -61,11 +61,28 @@ impl Piecewise {
         piece.derivative(order, p)
     }
 
+    /// The same for parameters that mostly grow; `hint` is the place of the last one's piece.
+    pub(super) fn at_next(&self, p: f64, hint: &mut usize) -> [f64; 4] {
+        while *hint > 0 && self.pieces[*hint - 1].0 >= p {
+            *hint -= 1;
+        }
+        while *hint + 1 < self.pieces.len() && self.pieces[*hint].0 < p {
+            *hint += 1;
+        }
+        let (piece, p) = self.piece(*hint, p);
+        piece.at(p)
+    }
+
     fn piece_at(&self, p: f64) -> (&Polynomial, f64) {
         let place = self
             .pieces
             .partition_point(|(end, _)| *end < p)
             .min(self.pieces.len() - 1);
+        self.piece(place, p)
+    }
+
+    /// A piece, and where in it a parameter lies.
+    fn piece(&self, place: usize, p: f64) -> (&Polynomial, f64) {
         let start = place.checked_sub(1).map_or(0.0, |before| self.pieces[before].0);
         (&self.pieces[place].1, p - start)
     }

@@ -4,7 +4,7 @@ use super::PlanningTarget;
 use super::backup::{BackupPair, backup_order, straightest};
 use super::bundle::{Longitudinal, lateral_bundle, longitudinal_bundle};
 use super::collision::{CollisionEnvironment, Footprint, Near};
-use super::combine::{LongitudinalTrack, Point, combine};
+use super::combine::{LongitudinalTrack, Motions, Point, combine};
 use super::config::LatticeConfig;
 use super::constraints::{Violation, is_steerable, violation};
 use super::cost::{LateralProfile, Sampled};
@@ -164,24 +164,22 @@ impl<'a> Lattice<'a> {
             .find_near(&laid.track, self.largest_offset, &self.ego, &mut laid.near);
     }
 
-    /// What is wrong with a pair, if anything is; its points are left in `points`.
-    pub(super) fn rejection(
-        &self,
-        laid: &Laid,
-        lateral: usize,
-        points: &mut Vec<Point>,
-    ) -> Option<Rejection> {
-        combine(&laid.track, &self.laterals[lateral].curve, points);
-        if points.len() < SAMPLES {
+    /// What is wrong with a pair, if anything is; how it moves is left in `motions`.
+    pub(super) fn rejection(&self, laid: &Laid, lateral: usize, motions: &mut Motions) -> Option<Rejection> {
+        motions.find(&laid.track, &self.laterals[lateral].curve);
+        if motions.len() < SAMPLES {
             return Some(Rejection::LeavesLine);
         }
-        let violates = violation(points.iter().map(Point::dynamics)).map(Rejection::Violates);
-        violates.or_else(|| laid.near.touched(points, &self.ego).map(Rejection::Touches))
+        let place = |k| motions.place(&laid.track, k);
+        let touched = || laid.near.touched_at(motions.len(), &self.ego, place);
+        violation(motions.dynamics())
+            .map(Rejection::Violates)
+            .or_else(|| touched().map(Rejection::Touches))
     }
 
     /// The cheapest pair that may be driven, else braking; `None` where there is nothing to drive on.
     pub fn plan(&self) -> Option<Planned> {
-        let mut points = Vec::with_capacity(SAMPLES);
+        let mut motions = Motions::default();
         let mut queue = self.pairs();
         let mut sizes = Sizes {
             longitudinal: self.longitudinal.len(),
@@ -200,10 +198,10 @@ impl<'a> Lattice<'a> {
                 self.lay(sampled, &mut laid);
                 laid
             });
-            if self.rejection(laid, pair.lateral, &mut points).is_none() {
+            if self.rejection(laid, pair.lateral, &mut motions).is_none() {
                 return Some(Planned {
                     outcome: Outcome::Found(pair),
-                    points,
+                    points: motions.points(&laid.track).collect(),
                     lateral: self.laterals[pair.lateral].curve.clone(),
                     sizes,
                 });

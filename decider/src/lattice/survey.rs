@@ -5,9 +5,9 @@
 
 use super::PlanningTarget;
 use super::bundle::Longitudinal;
+use super::combine::Motions;
 use super::curve::Curve;
 use super::evaluator::{Pair, PairCosts, Unfit, unfit};
-use super::grid::SAMPLES;
 use super::path_time_graph::PathTimeEntry;
 use super::plan::{Laid, Lattice, Planned, Rejection};
 use crate::geometry::frenet::FrenetMotion;
@@ -43,7 +43,7 @@ impl Lattice<'_> {
         let mut queue = self.pairs();
         pairs.extend(&mut queue);
         pairs.sort_by_key(|pair| (pair.longitudinal, pair.lateral));
-        let (mut laid, mut points, mut on) = (Laid::default(), Vec::with_capacity(SAMPLES), None);
+        let (mut laid, mut motions, mut on) = (Laid::default(), Motions::default(), None);
         let mut assess = |pair: Pair| {
             if let Some(sampled) = queue
                 .sampled(pair.longitudinal)
@@ -52,7 +52,7 @@ impl Lattice<'_> {
                 self.lay(sampled, &mut laid);
                 on = Some(pair.longitudinal);
             }
-            (pair, self.rejection(&laid, pair.lateral, &mut points))
+            (pair, self.rejection(&laid, pair.lateral, &mut motions))
         };
         pairs.into_iter().map(&mut assess).collect()
     }

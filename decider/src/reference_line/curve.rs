@@ -6,14 +6,12 @@
 
 use super::foot::Chords;
 use super::line::{LinePoint, LineSample};
+use crate::geometry::angle::turned;
 use crate::geometry::{Vec2, angle};
 
 /// How many knots a station may lie away from its place among evenly spaced ones before it is searched for. Lanes
 /// begin and end between two steps of their sampling, so a few are usual.
 const REACH: usize = 16;
-
-/// Largest turn for which series of the sine and the cosine are exact to the last digit, rad.
-const SMALL_TURN: f64 = 0.125;
 
 /// A point of the curve with its tangent, and the piece behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,21 +137,6 @@ impl Curve {
     }
 }
 
-/// A vector turned to the left.
-#[inline]
-fn turned(v: Vec2, by: f64) -> Vec2 {
-    let (sin, cos) = if by.abs() <= SMALL_TURN {
-        let q = by * by;
-        (
-            by * (1.0 + q * (-1.0 / 6.0 + q * (1.0 / 120.0 + q * (-1.0 / 5040.0 + q / 362_880.0)))),
-            1.0 + q * (-0.5 + q * (1.0 / 24.0 + q * (-1.0 / 720.0 + q * (1.0 / 40_320.0 - q / 3_628_800.0)))),
-        )
-    } else {
-        angle::sin_cos(by)
-    };
-    Vec2::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -173,17 +156,6 @@ mod tests {
         }
         for s in [f64::NAN, f64::INFINITY, -f64::INFINITY, 1e300] {
             assert!(curve.locate(s).0 + 1 < samples.len());
-        }
-    }
-
-    #[test]
-    fn turning_a_vector_is_exact_up_to_rounding() {
-        for k in -300..=300 {
-            let by = f64::from(k) * 0.01;
-            let (sin, cos) = angle::sin_cos(by);
-            let v = turned(Vec2::new(0.6, -0.8), by);
-            let exact = Vec2::new(0.6 * cos + 0.8 * sin, 0.6 * sin - 0.8 * cos);
-            assert!((v - exact).norm() < 3e-16, "{by}: {v} {exact}");
         }
     }
 }
