@@ -302,3 +302,40 @@ impl Posed {
         self.position + self.forward * local.x + left * local.y
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::ObstacleKind;
+    use crate::geometry::ConvexPolygon;
+    use crate::reference_line::LineQuery;
+    use crate::reference_line::testing;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// What a glance says, all corners say.
+        #[test]
+        fn a_glance_is_never_wrong(
+            s in 5.0..240.0, l in -6.0..6.0, theta in -3.2..3.2, length in 0.3..12.0, width in 0.3..2.6, ego in 0.0..100.0,
+        ) {
+            let line = testing::s_curve();
+            let at = line.to_cartesian(SlPoint { s, l });
+            let obstacle = Obstacle {
+                id: ObstacleId(0),
+                kind: ObstacleKind::Car,
+                pose: Pose::new(at.x, at.y, theta),
+                shape: ConvexPolygon::rectangle(Pose::new(0.0, 0.0, 0.0), length / 2.0, length / 2.0, width / 2.0),
+                velocity: Vec2::zeros(),
+                is_static: false,
+                prediction: Vec::new(),
+            };
+            let lane_width = |s| line.lane_width(s);
+            let project = |point: Vec2, _: f64| line.to_frenet(point);
+            let survey = Survey { s: ego, lane_width: &lane_width, project: &project };
+            let (body, pose) = (Body::of(&obstacle), Posed::from(obstacle.pose));
+            let measured = survey.touches(&survey.extent(&body, pose, &mut { f64::NAN }));
+            let glance = survey.at_a_glance(&body, pose, &mut { f64::NAN });
+            prop_assert!(glance.is_none_or(|glance| glance == measured), "{glance:?} for {measured}");
+        }
+    }
+}
