@@ -27,6 +27,7 @@ fn every_fixed_scenario_ends_as_it_should() {
             failed.push(format!("{}: {}", entry.name, verdict.summary));
         }
     }
-    assert!(runs >= 20, "{runs}");
+    // Nineteen of them are on the maps that are part of the program.
+    assert!(runs >= 19, "{runs}");
     assert!(failed.is_empty(), "{failed:#?}");
 }

@@ -1,6 +1,6 @@
 //! Scenarios and traces for the tests.
 
-use corridor_scenarios::{Family, MapCache, Scenario, catalog};
+use corridor_scenarios::{Family, MapCache, Scenario, ScenarioError, catalog};
 use corridor_sim::run::run_traced;
 use corridor_sim::settings::Settings;
 use corridor_sim::trace::Trace;
@@ -20,6 +20,17 @@ pub(crate) const VARIED: [&str; 8] = [
 
 pub(crate) fn family(name: &str) -> Family {
     catalog::find(name).unwrap().load(&MapCache::new()).unwrap()
+}
+
+/// Whether a scenario can be run here: those on shared maps cannot where these are absent and not required.
+pub(crate) fn is_here(name: &str) -> bool {
+    let loaded = catalog::find(name).unwrap().load(&MapCache::new());
+    let is_absent = matches!(loaded, Err(ScenarioError::SharedMapsAbsent { .. }))
+        && std::env::var_os("CORRIDOR_REQUIRE_MAPS").is_none();
+    if is_absent {
+        eprintln!("{name} skipped: no maps");
+    }
+    !is_absent
 }
 
 pub(crate) fn scenario(name: &str) -> Scenario {
