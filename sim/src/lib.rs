@@ -15,6 +15,8 @@ pub mod report;
 mod route;
 pub mod run;
 pub mod settings;
+pub mod shrink;
+pub mod signature;
 mod story;
 pub mod sweep;
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! How a run ended: every metric with its value, its threshold and its worst moment.
 
+use crate::signature::Signature;
 use corridor_decider::decision::{Fallback, Outcome};
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +24,9 @@ pub struct Verdict {
     /// Per rung of the chain of fallbacks how often and why it was needed.
     #[serde(default)]
     pub fallbacks: Vec<FallbackCount>,
+    /// What kind of failure it is; absent for a run that passed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub signature: Option<Signature>,
     /// Hash over all ticks' state hashes, hexadecimal.
     pub digest: String,
 }

@@ -12,5 +12,6 @@ mod outputs;
 mod planners;
 mod program;
 mod recorded;
+mod results;
 mod settings;
 mod traces;

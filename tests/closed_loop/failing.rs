@@ -3,7 +3,7 @@
 use crate::support::{family, owned, scenario, settings, trace};
 use corridor_sim::replay::{Replayed, replay};
 use corridor_sim::run::run;
-use corridor_sim::sweep::{Plan, sweep};
+use corridor_sim::sweep::{Plan, Variant, rows};
 use corridor_sim::verdict::Ending;
 
 #[test]
@@ -40,10 +40,9 @@ fn the_trace_of_a_failed_decider_is_whole_and_replays() {
 fn every_run_of_a_sweep_with_a_panicking_decider_is_judged() {
     let families = ["nudge_sweep", "cut_in"].map(|name| (family(name), name.to_owned()));
     let plan = Plan::new(families.into(), 6, 1);
-    let fault = ["fault=panic"];
-    let report = sweep(&plan, &settings(&fault), &owned(&fault), 2, &|_| {}).unwrap();
-    assert_eq!(report.rows().len(), 6);
-    for row in report.rows() {
+    let rows = rows(&plan, &Variant::new("", owned(&["fault=panic"])).unwrap(), 2).unwrap();
+    assert_eq!(rows.len(), 6);
+    for row in &rows {
         assert_eq!(
             row.verdict().unwrap().ending,
             Ending::DeciderFailed,

@@ -2,8 +2,9 @@
 
 use crate::support::{VARIED, family, owned, scenario, settings, trace};
 use corridor_sim::replay::{Replayed, replay};
+use corridor_sim::report::SweepReport;
 use corridor_sim::run::run;
-use corridor_sim::sweep::{Plan, sweep};
+use corridor_sim::sweep::{Plan, SweepRow, Variant, rows};
 use corridor_sim::verdict::{Ending, Verdict};
 
 const LATTICE: [&str; 1] = ["decider.planner=lattice"];
@@ -64,23 +65,24 @@ fn its_traces_replay_to_the_bit() {
 
 #[test]
 fn its_sweeps_have_one_digest_for_any_number_of_threads() {
-    let report = |threads: usize| {
+    let runs = |threads: usize| {
         let families = ["cut_in", "nudge_sweep", "pull_over_gap_sweep", "nudge_parked_car"];
         let families = families.map(|name| (family(name), name.to_owned())).into();
         let plan = Plan::new(families, 9, 1);
-        sweep(&plan, &settings(&LATTICE), &owned(&LATTICE), threads, &|_| {}).unwrap()
+        rows(&plan, &Variant::new("", owned(&LATTICE)).unwrap(), threads).unwrap()
     };
-    let one = report(1);
-    for row in one.rows() {
+    let digest = |rows: &[SweepRow]| rows.iter().collect::<SweepReport>().digest();
+    let one = runs(1);
+    for row in &one {
         // Every answer was timed, and nothing else.
         let answers = &row.verdict().unwrap().outcomes;
         let answers: u32 = answers.iter().map(|(_, ticks)| ticks).sum();
         assert_eq!(row.cycles.count(), u64::from(answers), "{}", row.scenario);
     }
     for threads in [2, 3] {
-        let other = report(threads);
-        assert_eq!(other.digest(), one.digest(), "{threads} threads");
-        for (a, b) in one.rows().iter().zip(other.rows()) {
+        let other = runs(threads);
+        assert_eq!(digest(&other), digest(&one), "{threads} threads");
+        for (a, b) in one.iter().zip(&other) {
             assert_eq!(a.verdict(), b.verdict(), "{} seed {}", a.scenario, a.seed);
         }
     }

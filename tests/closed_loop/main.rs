@@ -13,6 +13,7 @@ mod order;
 mod repeat;
 mod routed;
 mod rungs;
+mod shrink;
 mod smoothness;
 mod stages;
 mod support;

@@ -4,7 +4,7 @@ use crate::support::{VARIED, family, owned, scenario, settings, trace};
 use corridor_sim::replay::{Replayed, replay};
 use corridor_sim::report::SweepReport;
 use corridor_sim::run::run;
-use corridor_sim::sweep::{Plan, sweep};
+use corridor_sim::sweep::{Plan, SweepRow, Variant, rows};
 
 #[test]
 fn replaying_a_trace_gives_the_same_states() {
@@ -34,21 +34,25 @@ fn a_replay_makes_the_settings_of_its_trace() {
     assert!(matches!(replay(&forgotten).unwrap(), Replayed::Differs { .. }));
 }
 
-fn report(threads: usize, overrides: &[&str]) -> SweepReport {
+fn runs(threads: usize, overrides: &[&str]) -> Vec<SweepRow> {
     let families = ["cut_in", "nudge_sweep", "pull_over_gap_sweep", "nudge_parked_car"];
     let families = families.map(|name| (family(name), name.to_owned())).into();
     let plan = Plan::new(families, 13, 1);
-    sweep(&plan, &settings(overrides), &owned(overrides), threads, &|_| {}).unwrap()
+    rows(&plan, &Variant::new("", owned(overrides)).unwrap(), threads).unwrap()
+}
+
+fn digest(rows: &[SweepRow]) -> String {
+    rows.iter().collect::<SweepReport>().digest()
 }
 
 #[test]
 fn a_sweep_has_one_digest_for_any_number_of_threads_and_in_repeat() {
-    let one = report(1, &[]);
-    assert_eq!(one.rows().len(), 13);
+    let one = runs(1, &[]);
+    assert_eq!(one.len(), 13);
     for threads in [2, 1, 3] {
-        let other = report(threads, &[]);
-        assert_eq!(other.digest(), one.digest(), "{threads} threads");
-        for (a, b) in one.rows().iter().zip(other.rows()) {
+        let other = runs(threads, &[]);
+        assert_eq!(digest(&other), digest(&one), "{threads} threads");
+        for (a, b) in one.iter().zip(&other) {
             assert_eq!(a.verdict(), b.verdict(), "{} seed {}", a.scenario, a.seed);
         }
     }
@@ -56,13 +60,13 @@ fn a_sweep_has_one_digest_for_any_number_of_threads_and_in_repeat() {
 
 #[test]
 fn a_setting_that_matters_changes_the_digest() {
-    let usual = report(2, &[]).digest();
+    let usual = digest(&runs(2, &[]));
     for setting in [
         "decider.path_bounds.obstacle_lat_buffer=0.35",
         "physics.dynamics.steer_lag=0.3",
         "tick=0.2",
     ] {
-        assert_ne!(report(2, &[setting]).digest(), usual, "{setting}");
+        assert_ne!(digest(&runs(2, &[setting])), usual, "{setting}");
     }
 }
 

@@ -8,8 +8,11 @@ mod export;
 mod import;
 mod map;
 mod output;
+mod outputs;
 mod planner;
+mod results;
 mod run;
+mod shrink;
 mod source;
 mod sweep;
 mod trace;
@@ -31,6 +34,14 @@ enum Verb {
     Run(run::Run),
     /// Run many seeds of many scenarios and report.
     Sweep(sweep::Sweep),
+    /// Make the results of all parts of one sweep into one.
+    Merge(results::Merge),
+    /// Tell what a results file comes to, and write reports of it.
+    Report(results::Report),
+    /// Pair two results files seed by seed and test what differs.
+    Compare(results::Compare),
+    /// Make a failing run small: fewer obstacles, shorter, rounder numbers, the same failure.
+    Shrink(shrink::Shrink),
     /// Run a trace again and compare every state.
     Replay(trace::Replay),
     /// List the catalog.
@@ -59,6 +70,10 @@ pub(crate) fn main() -> ExitCode {
     let gate = match &arguments.verb {
         Verb::Run(run) => run.execute(),
         Verb::Sweep(sweep) => sweep.execute(),
+        Verb::Merge(merge) => merge.execute(),
+        Verb::Report(report) => report.execute(),
+        Verb::Compare(compare) => compare.execute(),
+        Verb::Shrink(shrink) => shrink.execute(),
         Verb::Replay(replay) => replay.execute(),
         Verb::List(list) => list.execute(),
         Verb::Validate(validate) => validate.execute(),

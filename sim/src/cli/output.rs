@@ -23,11 +23,21 @@ pub(crate) fn check(path: &Path) -> anyhow::Result<()> {
 
 /// Writes `text` to `path` by way of a file beside it, so that nobody ever reads half of it.
 pub(crate) fn write(path: &Path, text: &str) -> anyhow::Result<()> {
+    write_with(path, |mut file| Ok(file.write_all(text.as_bytes())?))
+}
+
+/// The same for what is too long to be held: `fill` writes it piece by piece.
+pub(crate) fn write_with(path: &Path, fill: impl FnOnce(File) -> anyhow::Result<()>) -> anyhow::Result<()> {
     let written = if is_special(path) {
-        std::fs::write(path, text)
+        File::options()
+            .write(true)
+            .open(path)
+            .map_err(Into::into)
+            .and_then(fill)
     } else {
         let partial = partial(path);
-        let written = std::fs::write(&partial, text).and_then(|()| std::fs::rename(&partial, path));
+        let filled = File::create(&partial).map_err(Into::into).and_then(fill);
+        let written = filled.and_then(|()| Ok(std::fs::rename(&partial, path)?));
         if written.is_err() {
             // The first error is the one to tell.
             let _ = std::fs::remove_file(&partial);

@@ -1,23 +1,26 @@
 //! `corridor sweep`: many runs, one report.
 
 mod compare;
+mod shard;
+mod until;
 
+use super::outputs::Outputs;
 use super::planner::{self, PlannerChoice};
 use super::{Gate, output, source};
 use clap::{Args, value_parser};
 use corridor_scenarios::MapCache;
-use corridor_sim::report::{Colour, SweepReport, to_json, to_junit, to_table};
-use corridor_sim::run;
-use corridor_sim::sweep::{Plan, Variant, find, sweep};
+use corridor_sim::report::{Colour, SweepReport, to_table};
+use corridor_sim::sweep::results::{Header, ResultsWriter};
+use corridor_sim::sweep::{Claim, Plan, Shard, Standing, SweepRow, Variant, sweep};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
-use std::path::{Path, PathBuf};
+use std::ops::ControlFlow;
 
-/// Failing runs of which `--out` keeps a trace. One shows a cause; hundreds fill a disk.
-const TRACES_KEPT: usize = 20;
+/// Runs where nobody says how many.
+const COUNT: u64 = 200;
 
-/// Runs that one report still holds in memory.
-const MOST_RUNS: i64 = 1_000_000;
+/// Most runs of a sweep: more would take years.
+const MOST_RUNS: u64 = 1_000_000_000;
 
 /// Threads that any system can start.
 const MOST_THREADS: i64 = 1024;
@@ -27,25 +30,28 @@ pub(crate) struct Sweep {
     /// Scenario files, folders of them, catalog names, or `catalog` for all of it.
     #[arg(required = true)]
     scenarios: Vec<String>,
-    /// How many runs in all, with `--compare` of each planner; scenarios without random numbers are run once.
-    #[arg(long, default_value_t = 200, value_parser = value_parser!(u32).range(1..=MOST_RUNS))]
-    count: u32,
+    /// How many runs in all, with `--compare` of each planner; scenarios without random numbers are run once. [default:
+    /// 200; with `--until`, what it can take at most]
+    #[arg(long, value_parser = value_parser!(u64).range(1..=MOST_RUNS))]
+    count: Option<u64>,
     /// The first seed.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Threads; 0: one per core. Does not change results.
     #[arg(long, default_value_t = 0, value_parser = value_parser!(u16).range(0..=MOST_THREADS))]
     jobs: u16,
-    /// Write a `JUnit` report. Not of a comparison, which is no list of cases.
-    #[arg(long, value_name = "FILE")]
-    junit: Option<PathBuf>,
-    /// Write a JSON report; with `--compare`, of the comparison.
-    #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
-    /// Write both reports, the table and traces of failing runs into this folder; with `--compare`, the comparison, and
-    /// below it a folder of these for each planner.
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    /// Stop as soon as it can be claimed at 95 % confidence, or is refuted, that fewer than RATE of such runs fail:
+    /// `0.1%` or `0.001`.
+    #[arg(long, value_name = "RATE", value_parser = until::rate)]
+    until: Option<Claim>,
+    /// Go on with the unfinished results file of the same sweep.
+    #[arg(long)]
+    resume: bool,
+    /// Make only part I of N of the runs, from 1; `auto` takes both from Slurm or Kubernetes, `auto/N` only I.
+    #[arg(long, value_name = "I/N", value_parser = shard::parse, conflicts_with = "until")]
+    shard: Option<Shard>,
+    #[command(flatten)]
+    outputs: Outputs,
     /// Change a setting of all runs.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<String>,
@@ -70,28 +76,80 @@ impl Sweep {
     fn sweep(&self) -> anyhow::Result<Gate> {
         let variant = Variant::new("sweep", self.planner.with(&self.settings))?;
         let plan = self.plan()?;
-        self.check_outputs()?;
-        let bar = progress_bar(plan.jobs().len());
-        let report = sweep(
-            &plan,
-            &variant.settings,
-            &variant.overrides,
-            usize::from(self.jobs),
-            &|row| {
-                bar.inc(1);
-                if let Some(failure) = row.failure() {
-                    bar.println(format!("{} seed {}: {failure}", row.scenario, row.seed));
-                }
-            },
-        )?;
-        bar.finish_and_clear();
+        self.outputs.check()?;
+        let until = self.until.map(Claim::rate);
+        let mut report = SweepReport::default();
+        let place = self.outputs.results_place()?;
+        anyhow::ensure!(
+            place.is_some() || !self.resume,
+            "`--resume` goes on with a results file: name it by `--results FILE` or `--out DIR`"
+        );
+        let header = || Header::new(&plan, &self.scenarios, &variant, until);
+        let mut results = match &place {
+            Some(place) if self.resume => Some(ResultsWriter::resume(place.path(), &header(), |row| {
+                report.add(row)
+            })?),
+            Some(place) => Some(ResultsWriter::create(place.path(), &header())?),
+            None => None,
+        };
+        self.make_runs(&plan, &variant, &mut report, results.as_mut())?;
+        if let Some(results) = results {
+            results.finish(&report)?;
+        }
         output::print(&to_table(&report, Colour::from_env()));
-        self.write(&plan, &variant, &report)?;
-        Ok(if report.passed() {
-            Gate::Passed
+        let claim = self.until.map(|claim| (claim, until::standing(claim, &report)));
+        if let Some((claim, standing)) = claim {
+            output::print(&until::sentence(claim, standing, &report));
+        }
+        if let Some(place) = &place {
+            self.outputs.write(place.path(), &report)?;
+            self.outputs.keep_traces(&plan, &variant, &report)?;
         } else {
-            Gate::Failed
-        })
+            self.outputs.write_json(&report)?;
+        }
+        let passed = claim.map_or(report.passed(), |(_, standing)| standing == Standing::Made);
+        Ok(if passed { Gate::Passed } else { Gate::Failed })
+    }
+
+    /// Makes the runs that the results do not hold yet.
+    fn make_runs(
+        &self,
+        plan: &Plan,
+        variant: &Variant,
+        report: &mut SweepReport,
+        mut results: Option<&mut ResultsWriter>,
+    ) -> anyhow::Result<()> {
+        if results.as_ref().is_some_and(|results| results.is_done()) {
+            return Ok(());
+        }
+        let bar = progress_bar(plan.len());
+        bar.set_position(report.runs());
+        let done = report.runs();
+        let mut written = Ok(());
+        let is_enough = |report: &SweepReport| {
+            self.until
+                .is_some_and(|claim| until::standing(claim, report) != Standing::Open)
+        };
+        if is_enough(report) {
+            return Ok(());
+        }
+        let take = |row: SweepRow| {
+            bar.inc(1);
+            if let Some(failure) = row.failure() {
+                bar.println(format!("{} seed {}: {failure}", row.scenario, row.seed));
+            }
+            report.add(&row);
+            if let Some(results) = &mut results {
+                written = results.add(&row);
+            }
+            if written.is_err() || is_enough(report) {
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(())
+        };
+        sweep(plan, done, variant, usize::from(self.jobs), take)?;
+        bar.finish_and_clear();
+        Ok(written?)
     }
 
     /// The runs to make, of the scenarios that can be run on this machine.
@@ -104,63 +162,18 @@ impl Sweep {
             !selection.families.is_empty(),
             "nothing to run: every scenario was skipped"
         );
-        Ok(Plan::new(selection.families, self.count as usize, self.seed))
-    }
-
-    /// What cannot be written must be known before hours of work.
-    fn check_outputs(&self) -> anyhow::Result<()> {
-        for path in self.json.iter().chain(&self.junit) {
-            output::check(path)?;
-        }
-        self.out.as_deref().map_or(Ok(()), output::make_folder)
-    }
-
-    fn write(&self, plan: &Plan, variant: &Variant, report: &SweepReport) -> anyhow::Result<()> {
-        if let Some(path) = &self.json {
-            output::write(path, &to_json(report)?)?;
-        }
-        if let Some(path) = &self.junit {
-            output::write(path, &to_junit(report)?)?;
-        }
-        match &self.out {
-            Some(folder) => fill(folder, plan, variant, report),
-            None => Ok(()),
-        }
+        let usual = self.until.map_or(COUNT, until::most_runs);
+        let plan = Plan::new(selection.families, self.count.unwrap_or(usual), self.seed);
+        let plan = plan.part(self.shard.unwrap_or(Shard::WHOLE));
+        anyhow::ensure!(
+            !plan.is_empty(),
+            "nothing to run: there are fewer runs than parts"
+        );
+        Ok(plan)
     }
 }
 
-/// Writes all there is to tell of a sweep into a folder.
-fn fill(folder: &Path, plan: &Plan, variant: &Variant, report: &SweepReport) -> anyhow::Result<()> {
-    output::write(&folder.join("report.json"), &to_json(report)?)?;
-    output::write(&folder.join("report.xml"), &to_junit(report)?)?;
-    output::write(&folder.join("report.txt"), &to_table(report, Colour::Never))?;
-    keep_traces(folder, plan, variant, report)
-}
-
-/// Runs the first failures again, with traces.
-fn keep_traces(folder: &Path, plan: &Plan, variant: &Variant, report: &SweepReport) -> anyhow::Result<()> {
-    for row in report.failures().take(TRACES_KEPT) {
-        let Some(Ok(drawn)) = find(plan, row).map(|family| family.draw(row.seed)) else {
-            continue;
-        };
-        let path = folder.join(format!(
-            "{}-{}.trace.zst",
-            row.scenario.replace(['/', '\\'], "_"),
-            row.seed
-        ));
-        let family = find(plan, row).expect("it was found a line ago");
-        run::run_traced(
-            family,
-            &drawn.scenario,
-            &variant.overrides,
-            &variant.settings,
-            &path,
-        )?;
-    }
-    Ok(())
-}
-
-fn progress_bar(length: usize) -> ProgressBar {
+fn progress_bar(length: u64) -> ProgressBar {
     let target = if std::io::stderr().is_terminal() {
         ProgressDrawTarget::stderr()
     } else {
@@ -168,5 +181,5 @@ fn progress_bar(length: usize) -> ProgressBar {
     };
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} runs, {per_sec}, {eta} left")
         .expect("the template is well-formed");
-    ProgressBar::with_draw_target(Some(length as u64), target).with_style(style)
+    ProgressBar::with_draw_target(Some(length), target).with_style(style)
 }

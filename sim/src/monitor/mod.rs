@@ -37,6 +37,7 @@ mod view;
 
 pub use view::{Motion, StepView, Traffic};
 
+use crate::signature::Signature;
 use crate::verdict::{Ending, Metric, Verdict};
 use corridor_decider::decision::Decision;
 use corridor_decider::frame::Frame;
@@ -203,6 +204,9 @@ impl Monitor {
         let pass = is_expected && metrics.iter().all(|m| m.pass || !m.gate);
         let collisions = self.collision.collisions().to_vec();
         let fault = self.decider.first_fault();
+        let driven = self.plan.as_ref();
+        let driven = (driven.and_then(Plan::label), driven.map(|plan| plan.outcome));
+        let signature = (!pass).then(|| Signature::of(&self.scenario, ending, &metrics, &collisions, driven));
         Verdict {
             pass,
             ending,
@@ -212,6 +216,7 @@ impl Monitor {
             collisions,
             outcomes: self.decider.outcomes(),
             fallbacks: self.fallbacks.counts(),
+            signature,
             digest: String::new(),
         }
     }

@@ -1,46 +1,35 @@
-//! The report as JSON. Everything but `timing` is the same on every machine.
+//! What a sweep adds up to as JSON; its rows are in the results file. Everything but `timing` is the same on every machine.
 
-use super::{ReportError, RunResult, ScenarioSummary, SweepReport, SweepRow};
-use crate::verdict::Verdict;
+use super::{Group, ReportError, ScenarioSummary, SweepReport};
+use crate::sweep::statistics::{CONFIDENCE, failure_rate_bound};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Version of this layout.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 #[derive(Serialize)]
 struct Document<'a> {
     format: u32,
     passed: bool,
     digest: String,
-    runs: usize,
-    failures: usize,
-    rejected: BTreeMap<&'a str, u64>,
+    runs: u64,
+    failures: u64,
+    /// Upper bound of the failure rate at 95 %, of all judged runs.
+    failure_rate_bound: f64,
+    rejected: &'a BTreeMap<String, u64>,
     scenarios: Vec<ScenarioSummary>,
-    rows: Vec<Row<'a>>,
-    timing: Timing<'a>,
-}
-
-#[derive(Serialize)]
-struct Row<'a> {
-    scenario: &'a str,
-    seed: u64,
-    passed: bool,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    verdict: Option<&'a Verdict>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    error: Option<&'a str>,
-    rejected: &'a BTreeMap<String, u32>,
-    replay: &'a str,
+    /// Failures by signature.
+    groups: Vec<&'a Group>,
+    timing: Timing,
 }
 
 /// Wall times, s: they differ from machine to machine and from run to run.
 #[derive(Serialize)]
-struct Timing<'a> {
+struct Timing {
     total: f64,
     /// How long the decider took for an answer.
     cycle: CycleTiming,
-    rows: Vec<(&'a str, u64, f64)>,
 }
 
 #[derive(Serialize)]
@@ -56,17 +45,18 @@ struct CycleTiming {
 /// # Errors
 /// [`ReportError::Json`] when the writer fails.
 pub fn to_json(report: &SweepReport) -> Result<String, ReportError> {
-    let seconds = |row: &SweepRow| row.wall_time.as_secs_f64();
     let cycles = report.cycles();
+    let judged = report.runs() - report.broken();
     let document = Document {
         format: FORMAT,
         passed: report.passed(),
         digest: report.digest(),
-        runs: report.rows().len(),
-        failures: report.failures().count(),
+        runs: report.runs(),
+        failures: report.failures(),
+        failure_rate_bound: failure_rate_bound(report.failures() - report.broken(), judged, CONFIDENCE),
         rejected: report.rejected(),
         scenarios: report.scenarios(),
-        rows: report.rows().iter().map(row).collect(),
+        groups: report.groups(),
         timing: Timing {
             total: report.wall_time().as_secs_f64(),
             cycle: CycleTiming {
@@ -75,29 +65,9 @@ pub fn to_json(report: &SweepReport) -> Result<String, ReportError> {
                 p99: cycles.quantile(0.99).as_secs_f64(),
                 longest: cycles.longest().as_secs_f64(),
             },
-            rows: report
-                .rows()
-                .iter()
-                .map(|row| (row.scenario.as_str(), row.seed, seconds(row)))
-                .collect(),
         },
     };
     let mut text = serde_json::to_string_pretty(&document)?;
     text.push('\n');
     Ok(text)
-}
-
-fn row(row: &SweepRow) -> Row<'_> {
-    Row {
-        scenario: &row.scenario,
-        seed: row.seed,
-        passed: row.passed(),
-        verdict: row.verdict(),
-        error: match &row.result {
-            RunResult::Judged(_) => None,
-            RunResult::Broken(reason) => Some(reason),
-        },
-        rejected: &row.rejected,
-        replay: &row.replay,
-    }
 }

@@ -1,27 +1,39 @@
-//! Reports on many runs: one row per run, what they add up to, and their forms for people and machines.
+//! Reports on many runs: what their rows add up to, in forms for people and machines.
 //!
-//! A report is a pure function of its rows. Wall times are kept beside what is hashed or compared, never in it.
+//! A report takes its rows in one after the other and keeps none: it is as large after a million as after a hundred. It
+//! is a pure function of them in any order; wall times are kept beside what is hashed or compared, never in it.
 
 mod comparison;
+mod csv;
 mod digest;
 mod grid;
+mod groups;
+mod histogram;
+mod html;
 mod json;
 mod junit;
+mod shares;
 mod summary;
 mod table;
 mod times;
 
 pub use comparison::{Comparison, comparison_to_json, comparison_to_table};
+pub use csv::Csv;
+pub use groups::{Example, Group};
+pub use html::to_html;
 pub use json::to_json;
-pub use junit::to_junit;
+pub use junit::{Junit, Totals};
 pub use summary::{PullOvers, ScenarioSummary};
 pub use table::{Colour, to_table};
 pub use times::times_to_table;
 
-use crate::sweep::CycleTimes;
-use crate::verdict::{Ending, Verdict};
+use crate::sweep::{CycleTimes, SweepRow};
+use digest::Digest;
+use groups::Groups;
+use histogram::{Histogram, Histograms};
 use std::collections::BTreeMap;
 use std::time::Duration;
+use summary::Sums;
 
 /// Why a report could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -30,139 +42,95 @@ pub enum ReportError {
     /// The JSON writer failed.
     #[error("cannot write the report as JSON: {0}")]
     Json(#[from] serde_json::Error),
-    /// The XML writer failed.
-    #[error("cannot write the report as JUnit XML: {0}")]
-    Junit(#[from] quick_junit::SerializeError),
 }
 
-/// One run of a sweep.
-#[derive(Clone, Debug)]
-pub struct SweepRow {
-    /// Name of the scenario family.
-    pub scenario: String,
-    /// The seed that drew its numbers.
-    pub seed: u64,
-    /// What came of it.
-    pub result: RunResult,
-    /// Whether the scenario has a goal to get to.
-    pub has_goal: bool,
-    /// How often the drawn scenario was rejected before this one, by reason.
-    pub rejected: BTreeMap<String, u32>,
-    /// The command that runs it again.
-    pub replay: String,
-    /// How long it took on this machine. Never hashed.
-    pub wall_time: Duration,
-    /// How long the decider took for its answers on this machine. Never hashed.
-    pub cycles: CycleTimes,
-}
-
-/// What came of a run.
-#[derive(Clone, Debug)]
-pub enum RunResult {
-    /// It was run and judged.
-    Judged(Box<Verdict>),
-    /// It could not be run: the testbed is to blame, not the decider. Why.
-    Broken(String),
-}
-
-impl SweepRow {
-    /// The judgement, if there is one.
-    pub fn verdict(&self) -> Option<&Verdict> {
-        match &self.result {
-            RunResult::Judged(verdict) => Some(verdict),
-            RunResult::Broken(_) => None,
-        }
-    }
-
-    /// Whether it was judged and passed.
-    pub fn passed(&self) -> bool {
-        self.verdict().is_some_and(|verdict| verdict.pass)
-    }
-
-    /// The value of a metric, if it was measured.
-    pub fn metric(&self, name: &str) -> Option<f64> {
-        let metrics = &self.verdict()?.metrics;
-        metrics.iter().find(|metric| metric.name == name)?.value
-    }
-
-    /// Whether a metric is good enough; `None` where there is none of this name.
-    fn passes(&self, name: &str) -> Option<bool> {
-        let metrics = &self.verdict()?.metrics;
-        Some(metrics.iter().find(|metric| metric.name == name)?.pass)
-    }
-
-    /// Why it failed, in one sentence; `None` when it passed.
-    pub fn failure(&self) -> Option<&str> {
-        match &self.result {
-            RunResult::Judged(verdict) if verdict.pass => None,
-            RunResult::Judged(verdict) => Some(&verdict.summary),
-            RunResult::Broken(reason) => Some(reason),
-        }
-    }
-
-    fn ending(&self) -> Option<Ending> {
-        self.verdict().map(|verdict| verdict.ending)
-    }
-}
-
-/// All runs of a sweep, by scenario and seed.
-#[derive(Clone, Debug)]
+/// What the rows of a sweep add up to.
+#[derive(Clone, Debug, Default)]
 pub struct SweepReport {
-    rows: Vec<SweepRow>,
+    scenarios: BTreeMap<String, Sums>,
+    rejected: BTreeMap<String, u64>,
+    groups: Groups,
+    histograms: Histograms,
+    digest: Digest,
+    cycles: CycleTimes,
+    wall_time: Duration,
 }
 
 impl SweepReport {
-    /// A report on `rows`, which may come in any order.
-    pub fn new(mut rows: Vec<SweepRow>) -> Self {
-        rows.sort_by(|a, b| a.scenario.cmp(&b.scenario).then(a.seed.cmp(&b.seed)));
-        Self { rows }
+    /// Takes in one more row.
+    pub fn add(&mut self, row: &SweepRow) {
+        self.scenarios.entry(row.scenario.clone()).or_default().add(row);
+        for (reason, count) in &row.rejected {
+            *self.rejected.entry(reason.clone()).or_insert(0) += u64::from(*count);
+        }
+        self.groups.add(row);
+        self.histograms.add(row);
+        self.digest.add(row);
+        self.cycles.merge(&row.cycles);
+        self.wall_time += row.wall_time;
     }
 
-    /// The runs, by scenario and seed.
-    pub fn rows(&self) -> &[SweepRow] {
-        &self.rows
+    /// How many runs there were.
+    pub fn runs(&self) -> u64 {
+        self.scenarios.values().map(|sums| sums.runs).sum()
     }
 
-    /// The runs that did not pass, by scenario and seed.
-    pub fn failures(&self) -> impl Iterator<Item = &SweepRow> {
-        self.rows.iter().filter(|row| !row.passed())
+    /// How many of them did not pass.
+    pub fn failures(&self) -> u64 {
+        self.scenarios.values().map(|sums| sums.runs - sums.passed).sum()
+    }
+
+    /// How many could not be judged.
+    pub fn broken(&self) -> u64 {
+        self.scenarios.values().map(|sums| sums.broken).sum()
     }
 
     /// Whether every run was judged and passed.
     pub fn passed(&self) -> bool {
-        self.failures().next().is_none()
+        self.failures() == 0
     }
 
     /// What the runs of each scenario add up to.
     pub fn scenarios(&self) -> Vec<ScenarioSummary> {
-        let groups = self.rows.chunk_by(|a, b| a.scenario == b.scenario);
-        groups.map(ScenarioSummary::new).collect()
+        let summary = |(name, sums): (&String, &Sums)| sums.summary(name);
+        self.scenarios.iter().map(summary).collect()
+    }
+
+    /// The failures by what kind of failure they are: the most frequent first.
+    pub fn groups(&self) -> Vec<&Group> {
+        self.groups.by_count()
+    }
+
+    fn histograms(&self) -> impl Iterator<Item = &Histogram> {
+        self.histograms.filled()
     }
 
     /// How often drawn scenarios were rejected, by reason.
-    pub fn rejected(&self) -> BTreeMap<&str, u64> {
-        let mut sums = BTreeMap::new();
-        for (reason, count) in self.rows.iter().flat_map(|row| &row.rejected) {
-            *sums.entry(reason.as_str()).or_insert(0) += u64::from(*count);
-        }
-        sums
+    pub fn rejected(&self) -> &BTreeMap<String, u64> {
+        &self.rejected
     }
 
-    /// One hash over all runs, in order of scenario and seed: equal for any number of threads and on any machine.
+    /// One hash over all runs, whatever their order: equal for any number of threads and on any machine.
     pub fn digest(&self) -> String {
-        digest::of(&self.rows)
+        self.digest.to_string()
     }
 
     /// The wall times of all answers of the decider.
-    pub fn cycles(&self) -> CycleTimes {
-        let mut sum = CycleTimes::default();
-        self.rows.iter().for_each(|row| sum.merge(&row.cycles));
-        sum
+    pub fn cycles(&self) -> &CycleTimes {
+        &self.cycles
     }
 
     /// The sum of the runs' wall times: what one thread would have taken.
     pub fn wall_time(&self) -> Duration {
-        self.rows.iter().map(|row| row.wall_time).sum()
+        self.wall_time
+    }
+}
+
+impl<'a> FromIterator<&'a SweepRow> for SweepReport {
+    fn from_iter<I: IntoIterator<Item = &'a SweepRow>>(rows: I) -> Self {
+        let mut report = Self::default();
+        rows.into_iter().for_each(|row| report.add(row));
+        report
     }
 }
 

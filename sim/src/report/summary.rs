@@ -1,7 +1,8 @@
 //! What the runs of one scenario add up to.
 
-use super::{RunResult, SweepRow};
-use crate::sweep::statistics::{CONFIDENCE, failure_rate_bound, percentile};
+use super::shares::Shares;
+use crate::sweep::statistics::{CONFIDENCE, failure_rate_bound};
+use crate::sweep::{RunResult, SweepRow};
 use crate::verdict::Ending;
 use serde::Serialize;
 use std::cmp::Ordering;
@@ -23,8 +24,12 @@ pub struct ScenarioSummary {
     pub at_fault: u64,
     /// Runs in which the ego left the road.
     pub off_road: u64,
-    /// Median of the progress, where it was measured.
+    /// Median of the progress to a thousandth, where it was measured.
     pub progress: Option<f64>,
+    /// Mean of nuPlan's closed-loop score.
+    pub nuplan_cls: Option<f64>,
+    /// Mean of the extended score.
+    pub ext_cls: Option<f64>,
     /// Runs that were asked to pull over, and how many did.
     pub pull_overs: PullOvers,
     /// Upper bound of the failure rate at 95 %, from the judged runs.
@@ -49,61 +54,99 @@ pub struct PullOvers {
     pub done: u64,
 }
 
-impl ScenarioSummary {
-    /// Adds up rows of one scenario.
-    pub(super) fn new(rows: &[SweepRow]) -> Self {
-        let count = |wanted: &dyn Fn(&SweepRow) -> bool| rows.iter().filter(|r| wanted(r)).count() as u64;
-        let fails = |row: &SweepRow, name: &str| {
-            let metrics = row.verdict().map_or(&[][..], |verdict| &verdict.metrics);
-            metrics.iter().any(|m| m.name == name && !m.pass)
-        };
-        let broken = count(&|row| matches!(row.result, RunResult::Broken(_)));
-        let passed = count(&|row| row.passed());
-        let judged = rows.len() as u64 - broken;
-        let progress: Vec<f64> = rows.iter().filter_map(|row| row.metric("progress")).collect();
-        let asked = |row: &SweepRow| row.metric("pull_over_success").is_some();
-        let seed_of = |best: Option<&SweepRow>| best.map(|row| row.seed);
-        Self {
-            scenario: rows.first().map_or(String::new(), |row| row.scenario.clone()),
-            runs: rows.len() as u64,
-            passed,
-            broken,
-            collisions: count(&|row| fails(row, "no_collision")),
-            at_fault: count(&|row| fails(row, "no_at_fault_collision")),
-            off_road: count(&|row| fails(row, "drivable_area")),
-            progress: percentile(&progress, 50.0),
-            pull_overs: PullOvers {
-                asked: count(&asked),
-                done: count(&|row| asked(row) && row.ending() == Some(Ending::PulledOver)),
-            },
-            failure_rate_bound: failure_rate_bound(judged - passed, judged, CONFIDENCE),
-            rejected: rows
-                .iter()
-                .flat_map(|r| r.rejected.values())
-                .map(|n| u64::from(*n))
-                .sum(),
-            worst_seed: seed_of(rows.iter().min_by(|a, b| goodness(a, b))),
-            longest_seed: seed_of(
-                rows.iter()
-                    .max_by(|a, b| duration(a).total_cmp(&duration(b)).then(b.seed.cmp(&a.seed))),
-            ),
-            slowest_seed: seed_of(
-                rows.iter()
-                    .max_by(|a, b| a.wall_time.cmp(&b.wall_time).then(b.seed.cmp(&a.seed))),
-            ),
+/// The sums from which a summary comes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sums {
+    pub(super) runs: u64,
+    pub(super) passed: u64,
+    pub(super) broken: u64,
+    collisions: u64,
+    at_fault: u64,
+    off_road: u64,
+    progress: Shares,
+    nuplan_cls: Shares,
+    ext_cls: Shares,
+    pull_overs: PullOvers,
+    rejected: u64,
+    worst: Option<Marked<Badness>>,
+    longest: Option<Marked<f64>>,
+    slowest: Option<Marked<f64>>,
+}
+
+/// A run with what makes it stand out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Marked<T> {
+    mark: T,
+    seed: u64,
+}
+
+/// Whether a run passed, and its clearance, m.
+type Badness = (bool, f64);
+
+impl Sums {
+    /// Takes in a row of this scenario.
+    pub(super) fn add(&mut self, row: &SweepRow) {
+        let count = |wanted: bool| u64::from(wanted);
+        self.runs += 1;
+        self.passed += count(row.passed());
+        self.broken += count(matches!(row.result, RunResult::Broken(_)));
+        self.collisions += count(row.fails("no_collision"));
+        self.at_fault += count(row.fails("no_at_fault_collision"));
+        self.off_road += count(row.fails("drivable_area"));
+        for (name, shares) in [
+            ("progress", &mut self.progress),
+            ("nuplan_cls", &mut self.nuplan_cls),
+            ("ext_cls", &mut self.ext_cls),
+        ] {
+            row.metric(name).into_iter().for_each(|value| shares.add(value));
+        }
+        if row.metric("pull_over_success").is_some() {
+            self.pull_overs.asked += 1;
+            self.pull_overs.done += count(row.ending() == Some(Ending::PulledOver));
+        }
+        self.rejected += row.rejected.values().map(|n| u64::from(*n)).sum::<u64>();
+        self.mark(row);
+    }
+
+    /// Keeps the runs that stand out; of equals, that of the smallest seed.
+    fn mark(&mut self, row: &SweepRow) {
+        let clearance = row.metric("min_clearance").unwrap_or(f64::INFINITY);
+        let worse = |a: &Badness, b: &Badness| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1));
+        let longer = |a: &f64, b: &f64| b.total_cmp(a);
+        let duration = row.verdict().map_or(0.0, |verdict| verdict.duration);
+        keep_first(&mut self.worst, (row.passed(), clearance), row.seed, worse);
+        keep_first(&mut self.longest, duration, row.seed, longer);
+        keep_first(&mut self.slowest, row.wall_time.as_secs_f64(), row.seed, longer);
+    }
+
+    /// What it comes to for the scenario of this name.
+    pub(super) fn summary(&self, scenario: &str) -> ScenarioSummary {
+        let judged = self.runs - self.broken;
+        ScenarioSummary {
+            scenario: scenario.to_owned(),
+            runs: self.runs,
+            passed: self.passed,
+            broken: self.broken,
+            collisions: self.collisions,
+            at_fault: self.at_fault,
+            off_road: self.off_road,
+            progress: self.progress.median(),
+            nuplan_cls: self.nuplan_cls.mean(),
+            ext_cls: self.ext_cls.mean(),
+            pull_overs: self.pull_overs,
+            failure_rate_bound: failure_rate_bound(judged - self.passed, judged, CONFIDENCE),
+            rejected: self.rejected,
+            worst_seed: self.worst.map(|run| run.seed),
+            longest_seed: self.longest.map(|run| run.seed),
+            slowest_seed: self.slowest.map(|run| run.seed),
         }
     }
 }
 
-fn duration(row: &SweepRow) -> f64 {
-    row.verdict().map_or(0.0, |verdict| verdict.duration)
-}
-
-/// Failed before passed, then the smaller clearance, then the smaller seed.
-fn goodness(a: &SweepRow, b: &SweepRow) -> Ordering {
-    let clearance = |row: &SweepRow| row.metric("min_clearance").unwrap_or(f64::INFINITY);
-    a.passed()
-        .cmp(&b.passed())
-        .then(clearance(a).total_cmp(&clearance(b)))
-        .then(a.seed.cmp(&b.seed))
+/// Keeps the run that comes first by `order`, then by its seed.
+fn keep_first<T>(kept: &mut Option<Marked<T>>, mark: T, seed: u64, order: impl Fn(&T, &T) -> Ordering) {
+    let comes_first = |best: &Marked<T>| order(&mark, &best.mark).then(seed.cmp(&best.seed)).is_lt();
+    if kept.as_ref().is_none_or(comes_first) {
+        *kept = Some(Marked { mark, seed });
+    }
 }

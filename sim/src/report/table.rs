@@ -1,12 +1,16 @@
 //! The report as a table for a terminal. Everything it says it says in words; colour only repeats it.
 
 use super::grid::Grid;
-use super::{RunResult, ScenarioSummary, SweepReport, SweepRow};
+use super::{Group, ScenarioSummary, SweepReport};
+use crate::sweep::statistics::{CONFIDENCE, failure_rate_bound};
 use std::fmt::Write;
 use std::io::IsTerminal;
 
-/// Failures listed in full; more are counted. What scrolls away is not read.
-const FAILURES_SHOWN: usize = 20;
+/// Kinds of failures shown; more are counted. What scrolls away is not read.
+const GROUPS_SHOWN: usize = 20;
+
+/// Scenarios named in a kind of failure.
+const NAMES_SHOWN: usize = 4;
 
 const RED: &str = "\u{1b}[31m";
 const GREEN: &str = "\u{1b}[32m";
@@ -54,7 +58,7 @@ impl Colour {
 }
 
 /// Headings of the columns; the first is left-aligned, the others right-aligned.
-const HEADINGS: [&str; 12] = [
+const HEADINGS: [&str; 14] = [
     "scenario",
     "runs",
     "passed",
@@ -63,6 +67,8 @@ const HEADINGS: [&str; 12] = [
     "at fault",
     "off road",
     "progress",
+    "nuplan_cls",
+    "ext_cls",
     "pulled over",
     "failures <",
     "worst seed",
@@ -78,8 +84,9 @@ pub fn to_table(report: &SweepReport, colour: Colour) -> String {
     text
 }
 
-fn cells(summary: &ScenarioSummary) -> [String; 12] {
+fn cells(summary: &ScenarioSummary) -> [String; 14] {
     let seed = |seed: Option<u64>| seed.map_or("-".to_owned(), |s| s.to_string());
+    let score = |score: Option<f64>| score.map_or("-".to_owned(), |s| format!("{s:.2}"));
     let pull_overs = &summary.pull_overs;
     [
         summary.scenario.clone(),
@@ -92,6 +99,8 @@ fn cells(summary: &ScenarioSummary) -> [String; 12] {
         summary
             .progress
             .map_or("-".to_owned(), |p| format!("{:.0} %", p * 100.0)),
+        score(summary.nuplan_cls),
+        score(summary.ext_cls),
         if pull_overs.asked == 0 {
             "-".to_owned()
         } else {
@@ -104,7 +113,7 @@ fn cells(summary: &ScenarioSummary) -> [String; 12] {
 }
 
 /// A share in percent with two significant digits; a bound is rounded up.
-fn percentage(share: f64) -> String {
+pub(super) fn percentage(share: f64) -> String {
     let percent = share * 100.0;
     let digits = if percent >= 10.0 {
         0
@@ -140,39 +149,54 @@ fn grid(scenarios: &[ScenarioSummary], colour: Colour) -> String {
     text
 }
 
+/// The failures by kind, each with its smallest example.
 fn failures(report: &SweepReport, colour: Colour) -> String {
+    let groups = report.groups();
     let mut text = String::new();
-    for row in report.failures().take(FAILURES_SHOWN) {
+    for group in groups.iter().take(GROUPS_SHOWN) {
+        let word = if group.signature.is_some() {
+            "FAILED"
+        } else {
+            "BROKEN"
+        };
+        let example = &group.smallest;
         let _ = write!(
             text,
-            "\n{} {} seed {}: {}\n  again: {}\n",
-            colour.paint(RED, word(row)),
-            row.scenario,
-            row.seed,
-            row.failure().unwrap_or_default().trim_start_matches("failed: "),
-            row.replay
+            "\n{} {} x {}\n  of {}\n  as {} seed {}: {}\n  again: {}\n",
+            colour.paint(RED, word),
+            group.count,
+            group.kind,
+            scenarios(group),
+            example.scenario,
+            example.seed,
+            example.failure.trim_start_matches("failed: "),
+            example.replay
         );
     }
-    let hidden = report.failures().count().saturating_sub(FAILURES_SHOWN);
+    let hidden = groups.len().saturating_sub(GROUPS_SHOWN);
     if hidden > 0 {
-        let _ = write!(
-            text,
-            "\n{hidden} more failures are in the JSON and JUnit reports\n"
-        );
+        let _ = write!(text, "\n{hidden} more kinds of failures are in the JSON report\n");
     }
     text
 }
 
-fn word(row: &SweepRow) -> &'static str {
-    match row.result {
-        RunResult::Judged(_) => "FAILED",
-        RunResult::Broken(_) => "BROKEN",
+/// The scenarios of a kind of failure, those with most of it first.
+fn scenarios(group: &Group) -> String {
+    let mut counts: Vec<(&String, &u64)> = group.scenarios.iter().collect();
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+    let shown = counts.iter().take(NAMES_SHOWN);
+    let names: Vec<String> = shown.map(|(name, count)| format!("{name} ({count})")).collect();
+    let more = counts.len().saturating_sub(NAMES_SHOWN);
+    if more > 0 {
+        format!("{} and {more} more scenarios", names.join(", "))
+    } else {
+        names.join(", ")
     }
 }
 
 fn totals(report: &SweepReport, colour: Colour) -> String {
-    let runs = report.rows().len();
-    let failed = report.failures().count();
+    let runs = report.runs();
+    let failed = report.failures();
     let result = if failed == 0 {
         colour.paint(GREEN, &format!("all {runs} runs passed"))
     } else {
@@ -188,9 +212,12 @@ fn totals(report: &SweepReport, colour: Colour) -> String {
             .collect();
         let _ = write!(text, "; {total} draws rejected ({})", reasons.join(", "));
     }
+    let judged = runs - report.broken();
+    let bound = failure_rate_bound(failed - report.broken(), judged, CONFIDENCE);
     let _ = write!(
         text,
-        "\n\"failures <\" is the upper bound of the failure rate at 95 % confidence\ndigest {}\n",
+        "\nat 95 % confidence fewer than {} of all such runs fail; \"failures <\" is the same of one scenario\ndigest {}\n",
+        percentage(bound),
         report.digest()
     );
     text

@@ -1,23 +1,33 @@
 //! Sweeps: many runs at once, and what can be said of them.
+//!
+//! A plan names the runs; they are made side by side, and each becomes a row, handed on in the order of the plan and then
+//! forgotten: reports add rows up, results files hold them.
 
+pub mod bootstrap;
+mod claim;
 mod compare;
+mod in_order;
 pub mod paired;
 mod plan;
+pub mod results;
+mod row;
 pub mod signed_rank;
 pub mod statistics;
 mod stopwatch;
 
-pub use compare::{Variant, compare};
-pub use plan::{Job, Plan};
+pub use claim::{Claim, Standing};
+pub use compare::compare;
+pub use plan::{Job, Plan, Shard};
+pub use row::{Judgement, RunResult, SweepRow};
 pub use stopwatch::{CycleTimes, Stopwatch};
 
 use crate::decider;
-use crate::report::{RunResult, SweepReport, SweepRow};
 use crate::run::run_into;
-use crate::settings::Settings;
-use corridor_scenarios::{Drawn, Family};
-use rayon::prelude::*;
+use crate::settings::{SettingError, Settings};
+use corridor_scenarios::Drawn;
+use in_order::in_order;
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Duration;
 
@@ -31,55 +41,80 @@ pub enum SweepError {
         /// How many were asked for.
         jobs: usize,
         /// What went wrong.
-        source: rayon::ThreadPoolBuildError,
+        source: std::io::Error,
     },
 }
 
-/// Runs every job of a plan on `threads` threads (0: one per core) and reports. `done` hears of each finished
-/// run, in any order; the report does not depend on it.
+/// Settings to run under, and what to call them.
+#[derive(Clone, Debug)]
+pub struct Variant {
+    /// What to call it.
+    pub name: String,
+    /// Its settings.
+    pub settings: Settings,
+    /// Those of them that are not the defaults, as the command line has them.
+    pub overrides: Vec<String>,
+}
+
+impl Variant {
+    /// The defaults with some settings made, in order.
+    ///
+    /// # Errors
+    /// [`SettingError`] for the first one that cannot be made.
+    pub fn new(name: &str, overrides: Vec<String>) -> Result<Self, SettingError> {
+        Ok(Self {
+            name: name.to_owned(),
+            settings: Settings::with(&overrides)?,
+            overrides,
+        })
+    }
+}
+
+/// Makes the runs of a plan from its run `from` on, on `threads` threads (0: one per core), and hands each row to `take`
+/// in the order of the plan, until that breaks off. Rows do not depend on the number of threads.
 ///
 /// # Errors
 /// [`SweepError`] when the threads cannot be started.
 pub fn sweep(
     plan: &Plan,
-    settings: &Settings,
-    overrides: &[String],
+    from: u64,
+    variant: &Variant,
     threads: usize,
-    done: &(dyn Fn(&SweepRow) + Sync),
-) -> Result<SweepReport, SweepError> {
-    let run_job = |job: &Job| {
-        let row = row(plan, *job, settings, overrides);
-        done(&row);
-        row
-    };
-    let rows = pool(threads)?.install(|| plan.jobs().par_iter().map(run_job).collect());
-    Ok(SweepReport::new(rows))
+    mut take: impl FnMut(SweepRow) -> ControlFlow<()>,
+) -> Result<(), SweepError> {
+    let count = plan.len().saturating_sub(from);
+    let work = |nth| row(plan, plan.job(from + nth), variant);
+    in_order(threads, count, work, |_, row| take(row))
 }
 
-fn pool(threads: usize) -> Result<rayon::ThreadPool, SweepError> {
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|source| SweepError::Threads {
-            jobs: threads,
-            source,
-        })
+/// All rows of a plan at once: for few of them.
+///
+/// # Errors
+/// [`SweepError`] when the threads cannot be started.
+pub fn rows(plan: &Plan, variant: &Variant, threads: usize) -> Result<Vec<SweepRow>, SweepError> {
+    let mut rows = Vec::new();
+    sweep(plan, 0, variant, threads, |row| {
+        rows.push(row);
+        ControlFlow::Continue(())
+    })?;
+    Ok(rows)
 }
 
-fn row(plan: &Plan, job: Job, settings: &Settings, overrides: &[String]) -> SweepRow {
+fn row(plan: &Plan, job: Job, variant: &Variant) -> SweepRow {
     let (family, given) = plan.family(job);
     let row = SweepRow {
+        job: job.index,
         scenario: family.name().to_owned(),
         seed: job.seed,
         result: RunResult::Broken(String::new()),
         has_goal: false,
         rejected: BTreeMap::new(),
-        replay: replay_command(given, job.seed, overrides),
+        replay: replay_command(given, job.seed, &variant.overrides),
         wall_time: Duration::ZERO,
         cycles: CycleTimes::default(),
     };
     match family.draw(job.seed) {
-        Ok(drawn) => judged(row, &drawn, settings),
+        Ok(drawn) => judged(row, &drawn, &variant.settings),
         Err(error) => SweepRow {
             result: RunResult::Broken(error.to_string()),
             ..row
@@ -102,7 +137,7 @@ fn judged(row: SweepRow, drawn: &Drawn, settings: &Settings) -> SweepRow {
     };
     let (verdict, wall_time) = timed(run);
     let result = match verdict {
-        Ok(Ok(verdict)) => RunResult::Judged(Box::new(verdict)),
+        Ok(Ok(verdict)) => RunResult::Judged(Box::new(verdict.into())),
         Ok(Err(error)) => RunResult::Broken(error.to_string()),
         Err(panic) => RunResult::Broken(format!("the testbed panicked: {}", decider::said(&*panic))),
     };
@@ -135,9 +170,4 @@ fn replay_command(given: &str, seed: u64, overrides: &[String]) -> String {
         command.push_str(setting);
     }
     command
-}
-
-/// The family of a row in a plan, to run it again with a trace.
-pub fn find<'a>(plan: &'a Plan, row: &SweepRow) -> Option<&'a Family> {
-    plan.families().find(|family| family.name() == row.scenario)
 }

@@ -87,7 +87,7 @@ pub(super) fn at_most_heads(few: u64, all: u64) -> f64 {
 /// The regularised incomplete beta function `I_x(a, b)`, for `a, b > 0`.
 ///
 /// Continued fraction with modified Lentz (Numerical Recipes, 6.4); about 13 digits.
-fn regularised_beta(a: f64, b: f64, x: f64) -> f64 {
+pub(super) fn regularised_beta(a: f64, b: f64, x: f64) -> f64 {
     if x <= 0.0 {
         return 0.0;
     }
@@ -98,9 +98,13 @@ fn regularised_beta(a: f64, b: f64, x: f64) -> f64 {
     if x > (a + 1.0) / (a + b + 2.0) {
         return 1.0 - regularised_beta(b, a, 1.0 - x);
     }
-    let ln_front =
-        libm::lgamma(a + b) - libm::lgamma(a) - libm::lgamma(b) + a * libm::log(x) + b * libm::log1p(-x);
+    let ln_front = a * libm::log(x) + b * libm::log1p(-x) - ln_beta(a, b);
     libm::exp(ln_front) * beta_fraction(a, b, x) / a
+}
+
+/// Logarithm of the beta function.
+pub(super) fn ln_beta(a: f64, b: f64) -> f64 {
+    libm::lgamma(a) + libm::lgamma(b) - libm::lgamma(a + b)
 }
 
 fn beta_fraction(a: f64, b: f64, x: f64) -> f64 {

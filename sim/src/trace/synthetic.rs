@@ -423,6 +423,7 @@ fn verdict() -> Verdict {
         collisions: Vec::new(),
         outcomes: vec![("normal".to_owned(), 210)],
         fallbacks: Vec::new(),
+        signature: None,
         digest: "0123456789abcdef".to_owned(),
     }
 }

@@ -75,7 +75,7 @@ pub enum EdgeCause {
 }
 
 /// The situation a bound is for. Its text is the original's label.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Label {
     /// So permissive that some path always exists.

@@ -1,9 +1,11 @@
 //! The comparison as JSON: nothing in it depends on the machine or the moment.
 
-use super::super::{ReportError, RunResult, SweepReport};
+use super::super::{ReportError, SweepReport};
 use super::outcomes::{Fourfold, OutcomeRow};
 use super::quantities::QuantityRow;
+use super::scores::ScoreRow;
 use super::{ALPHA, Comparison, Harm, Pair, harm, is_judged};
+use crate::sweep::RunResult;
 use crate::sweep::statistics::CONFIDENCE;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -18,16 +20,17 @@ struct Document<'a> {
     planners: &'a [String; 2],
     digests: [String; 2],
     safe: bool,
-    pairs: usize,
+    pairs: u64,
     /// Pairs of which a run could not be made: not compared.
     broken: Vec<Broken<'a>>,
     /// Draws rejected, by reason: the same for both.
-    rejected: BTreeMap<&'a str, u64>,
+    rejected: &'a BTreeMap<String, u64>,
     alpha: f64,
     confidence: f64,
     tests: usize,
     outcomes: &'a [OutcomeRow],
     metrics: &'a [QuantityRow],
+    scores: &'a [ScoreRow],
     scenarios: Vec<Split<'a>>,
     only_first: Vec<Regression<'a>>,
     only_second: Vec<Regression<'a>>,
@@ -70,7 +73,7 @@ pub fn comparison_to_json(comparison: &Comparison) -> Result<String, ReportError
         planners: &comparison.names,
         digests: reports.each_ref().map(SweepReport::digest),
         safe: comparison.is_safe(),
-        pairs: reports[0].rows().len(),
+        pairs: reports[0].runs(),
         broken: broken.map(broken_pair).collect(),
         rejected: reports[0].rejected(),
         alpha: ALPHA,
@@ -78,6 +81,7 @@ pub fn comparison_to_json(comparison: &Comparison) -> Result<String, ReportError
         tests: comparison.tests(),
         outcomes: &comparison.outcomes,
         metrics: &comparison.quantities,
+        scores: &comparison.scores,
         scenarios: comparison
             .scenarios()
             .into_iter()

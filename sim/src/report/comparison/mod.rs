@@ -6,6 +6,7 @@
 mod json;
 mod outcomes;
 mod quantities;
+mod scores;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -13,11 +14,13 @@ mod tests;
 pub use json::comparison_to_json;
 pub use table::comparison_to_table;
 
-use super::{SweepReport, SweepRow};
+use super::SweepReport;
+use crate::sweep::SweepRow;
 use crate::sweep::paired::holm;
 use crate::verdict::Ending;
 use outcomes::{Fourfold, OutcomeRow};
 use quantities::QuantityRow;
+use scores::ScoreRow;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -62,37 +65,47 @@ impl Test {
 #[derive(Clone, Debug)]
 pub struct Comparison {
     names: [String; 2],
-    /// Row by row of the same scenario and seed.
+    /// Both runs of a scenario and seed, in that order.
+    pairs: Vec<[SweepRow; 2]>,
     reports: [SweepReport; 2],
     outcomes: Vec<OutcomeRow>,
     quantities: Vec<QuantityRow>,
+    scores: Vec<ScoreRow>,
 }
 
 impl Comparison {
     /// Compares `pairs`, which may come in any order; both runs of a pair are of one scenario and seed.
-    pub fn new(names: [String; 2], pairs: Vec<[SweepRow; 2]>) -> Self {
-        let (first, second) = pairs.into_iter().map(|[first, second]| (first, second)).unzip();
-        let reports = [SweepReport::new(first), SweepReport::new(second)];
-        let is_pair = |[a, b]: Pair| (&a.scenario, a.seed) == (&b.scenario, b.seed);
-        debug_assert!(
-            pairs_of(&reports).all(is_pair),
-            "a pair is of one scenario and seed"
-        );
-        let judged: Vec<Pair> = pairs_of(&reports).filter(is_judged).collect();
+    pub fn new(names: [String; 2], mut pairs: Vec<[SweepRow; 2]>) -> Self {
+        let is_pair = |[a, b]: &[SweepRow; 2]| (&a.scenario, a.seed) == (&b.scenario, b.seed);
+        debug_assert!(pairs.iter().all(is_pair), "a pair is of one scenario and seed");
+        pairs.sort_by(|[a, _], [b, _]| a.scenario.cmp(&b.scenario).then(a.seed.cmp(&b.seed)));
+        let judged: Vec<Pair> = pairs
+            .iter()
+            .map(<[SweepRow; 2]>::each_ref)
+            .filter(is_judged)
+            .collect();
         let mut outcomes = outcomes::rows(&judged);
         let mut quantities = quantities::rows(&judged);
+        let scores = scores::rows(&judged);
         correct(&mut outcomes, &mut quantities);
         Self {
             names,
-            reports,
+            reports: [0, 1].map(|side| pairs.iter().map(|pair| &pair[side]).collect()),
+            pairs,
             outcomes,
             quantities,
+            scores,
         }
     }
 
     /// What the two are called.
     pub fn names(&self) -> &[String; 2] {
         &self.names
+    }
+
+    /// The rows of the first or the second, by scenario and seed.
+    pub fn rows(&self, side: usize) -> impl Iterator<Item = &SweepRow> {
+        self.pairs.iter().map(move |pair| &pair[side])
     }
 
     /// The runs of each as a report of its own.
@@ -103,13 +116,12 @@ impl Comparison {
     /// Whether every run of both could be made and judged, its decider answered, and no collision was the ego's fault.
     /// Which of the two is better is a question and no gate.
     pub fn is_safe(&self) -> bool {
-        let mut rows = self.reports.iter().flat_map(SweepReport::rows);
-        rows.all(|row| harm(row) == Harm::None)
+        self.pairs.iter().flatten().all(|row| harm(row) == Harm::None)
     }
 
     /// All pairs, by scenario and seed.
     fn pairs(&self) -> impl Iterator<Item = Pair<'_>> {
-        pairs_of(&self.reports)
+        self.pairs.iter().map(<[SweepRow; 2]>::each_ref)
     }
 
     /// Pairs of which only the run of `side` (0 or 1) passed: the worst end of the other first, and every scenario once
@@ -159,16 +171,6 @@ fn correct(outcomes: &mut [OutcomeRow], quantities: &mut [QuantityRow]) {
     for (test, p) in tests.into_iter().zip(holm(&raw)) {
         test.correct(p);
     }
-}
-
-/// The rows of two reports side by side. Both are sorted, so those of one scenario and seed meet.
-fn pairs_of(reports: &[SweepReport; 2]) -> impl Iterator<Item = Pair<'_>> {
-    let [first, second] = reports;
-    first
-        .rows()
-        .iter()
-        .zip(second.rows())
-        .map(|(first, second)| [first, second])
 }
 
 /// What a run that did not pass did, worst first.

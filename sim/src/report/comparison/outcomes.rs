@@ -1,8 +1,8 @@
 //! What a run can have or lack, counted over pairs. Names are close to those of the metrics of a verdict; an outcome is to
 //! be within the threshold.
 
-use super::super::SweepRow;
 use super::{Pair, Test};
+use crate::sweep::SweepRow;
 use crate::sweep::paired::mcnemar;
 use crate::verdict::Ending;
 use serde::Serialize;

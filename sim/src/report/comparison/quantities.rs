@@ -3,8 +3,8 @@
 //!
 //! A pair counts where both runs measured it: what one run gave no occasion to measure cannot be compared.
 
-use super::super::SweepRow;
 use super::{Pair, Test};
+use crate::sweep::SweepRow;
 use crate::sweep::paired::{Median, median};
 use crate::sweep::signed_rank::signed_rank;
 use crate::sweep::statistics::{CONFIDENCE, percentile};

@@ -6,6 +6,7 @@ use super::super::{Colour, SweepReport};
 use super::outcomes::OutcomeRow;
 use super::quantities::QuantityRow;
 use super::{ALPHA, Comparison, Harm, Test, harm, is_judged};
+use crate::sweep::bootstrap::Mean;
 use std::fmt::Write;
 
 /// Pairs listed that only one passes; more are counted. What scrolls away is not read.
@@ -20,6 +21,7 @@ pub fn comparison_to_table(comparison: &Comparison, colour: Colour) -> String {
     let mut text = head(comparison, &reports[0]);
     text.push_str(&outcomes(comparison, colour));
     text.push_str(&quantities(comparison, colour));
+    text.push_str(&scores(comparison));
     text.push_str(&legend(comparison));
     text.push_str(&scenarios(comparison));
     text.push_str(&passed_by_only(comparison, 0, colour));
@@ -34,7 +36,7 @@ pub fn comparison_to_table(comparison: &Comparison, colour: Colour) -> String {
 
 fn head(comparison: &Comparison, first: &SweepReport) -> String {
     let [a, b] = &comparison.names;
-    let pairs = first.rows().len();
+    let pairs = first.runs();
     let scenarios = comparison.scenarios().len();
     let mut text = format!("{a} and {b} on the same {pairs} seeds of {scenarios} scenarios");
     let broken = comparison.pairs().filter(|pair| !is_judged(pair)).count();
@@ -95,6 +97,28 @@ fn quantities(comparison: &Comparison, colour: Colour) -> String {
         grid.row(cells(row));
     }
     marked(&grid, comparison.quantities.iter().map(|row| row.test), colour)
+}
+
+fn scores(comparison: &Comparison) -> String {
+    let [a, b] = &comparison.names;
+    let headings = ["score (mean)", "pairs", a, b, "difference", "95 % range"];
+    let mut grid = Grid::new(headings);
+    for row in &comparison.scores {
+        let Mean { value, low, high } = row.difference;
+        grid.row([
+            row.name.to_owned(),
+            row.pairs.to_string(),
+            number(row.means[0]),
+            number(row.means[1]),
+            signed(value),
+            format!("{} to {}", signed(low), signed(high)),
+        ]);
+    }
+    let lines: Vec<String> = grid.lines().collect();
+    if lines.len() < 2 {
+        return String::new();
+    }
+    format!("\n{}\n", lines.join("\n"))
 }
 
 fn cells(row: &QuantityRow) -> [String; 9] {
@@ -236,8 +260,8 @@ fn safety(comparison: &Comparison, colour: Colour) -> String {
         return format!("\n{}\n", colour.good(text));
     }
     let mut text = "\n".to_owned();
-    for (name, report) in comparison.names.iter().zip(&comparison.reports) {
-        let count = |kind: Harm| report.rows().iter().filter(|row| harm(row) == kind).count();
+    for (side, name) in comparison.names.iter().enumerate() {
+        let count = |kind: Harm| comparison.rows(side).filter(|row| harm(row) == kind).count();
         let line = format!(
             "{name}: collisions at fault {}, failed deciders {}, runs that could not be made {}",
             count(Harm::AtFault),

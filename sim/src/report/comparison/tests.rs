@@ -1,9 +1,8 @@
 //! Comparisons of hand-made pairs.
 
 use super::super::Colour;
-use super::super::RunResult;
 use super::*;
-use crate::sweep::CycleTimes;
+use crate::sweep::{CycleTimes, RunResult};
 use crate::verdict::{Metric, Verdict};
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -39,12 +38,14 @@ fn run(seed: u64, progress: f64) -> SweepRow {
         collisions: Vec::new(),
         outcomes: Vec::new(),
         fallbacks: Vec::new(),
+        signature: None,
         digest: format!("{seed:x}"),
     };
     SweepRow {
+        job: seed,
         scenario: format!("street {}", seed % 2),
         seed,
-        result: RunResult::Judged(Box::new(verdict)),
+        result: RunResult::Judged(Box::new(verdict.into())),
         has_goal: true,
         rejected: BTreeMap::from([("overlap at the start".to_owned(), 1)]),
         replay: format!("corridor run street --seed {seed}"),
@@ -60,7 +61,7 @@ fn crashed(row: SweepRow) -> SweepRow {
     };
     verdict.pass = false;
     verdict.ending = Ending::Collision;
-    verdict.metrics[0].pass = false;
+    verdict.failed = vec![metric("no_at_fault_collision", 1.0, false)];
     SweepRow {
         result: RunResult::Judged(verdict),
         ..row
