@@ -150,7 +150,24 @@ pub enum DrawError {
         /// The reasons, one per attempt.
         rejected: Vec<Rejection>,
     },
+    /// A number that the draw was told cannot be had.
+    #[error("family `{family}`: `{key}`: {problem}")]
+    Told {
+        /// Name of the family.
+        family: String,
+        /// Key path of the number.
+        key: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A scene that others recorded has no numbers to fix, and is not written as a scenario file.
+    #[error("`{family}` is a recorded scene: it is fixed already")]
+    Recorded {
+        /// Name of the family.
+        family: String,
+    },
 }
+
 /// Why a planning problem cannot be chosen.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]

@@ -1,22 +1,25 @@
 //! A scenario file on its road: `(family, seed)` is one scenario.
 
+mod fixed;
 mod recorded;
+mod way;
 
 use crate::error::{DrawError, NoProblem, Place, ScenarioError};
 use crate::expectation;
 use crate::import::commonroad;
 use crate::map_format;
-use crate::map_source::{LoadedMap, MapCache};
+use crate::map_source::{self, LoadedMap, MapCache};
+use crate::parameter::{Parameter, Told};
 use crate::resolve::Draft;
 use crate::resolve::sampler::Sampler;
-use crate::route::{self, Road};
+use crate::route::Road;
 use crate::scenario::Scenario;
 use crate::schema::ScenarioFile;
-use crate::schema::task::{Expect, RoutePlace, Task};
+use crate::schema::task::Expect;
 use crate::validity::{self, Rejection, Scene};
 use corridor_decider::reference_line::LineQuery;
-use corridor_decider::road::{LaneId, RoadMap};
-use corridor_decider::routing::{BlackList, LaneGraph, Position, RoutingConfig, WayPoint};
+use corridor_decider::road::RoadMap;
+use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 use std::sync::Arc;
@@ -24,15 +27,6 @@ use toml::Spanned;
 
 /// How often one seed is tried. A family of which one draw in ten is possible fails one seed in 38,000.
 const ATTEMPTS: u32 = 100;
-
-/// Length of route beyond the ego's first lane, m, where a run is too short to ask for more.
-const LEAST_ROUTE: f64 = 400.0;
-
-/// Longest route, m: what an ego can drive in a minute at 180 km/h. Longer runs end with the route.
-const LONGEST_ROUTE: f64 = 3000.0;
-
-/// Length of route beyond what cruising reaches, m: what one plans ahead.
-const PLANNED_AHEAD: f64 = 150.0;
 
 /// A scenario file with its map read and its route found.
 #[derive(Debug)]
@@ -64,6 +58,8 @@ enum Origin {
 struct Template {
     name: String,
     file: ScenarioFile,
+    /// Where its map is, seen from anywhere.
+    map: String,
     expect: Expect,
     road: Road,
 }
@@ -75,6 +71,8 @@ pub struct Drawn {
     pub scenario: Scenario,
     /// Why earlier attempts at this seed were not run.
     pub rejected: Vec<Rejection>,
+    /// The numbers of the scenario that came from laws, in the order of the file's tables.
+    pub parameters: Vec<Parameter>,
 }
 
 impl Family {
@@ -121,11 +119,12 @@ impl Family {
         let map = maps.get(content.map.get_ref(), base, &place(&content.map))?;
         let template = Template {
             name: content.name.clone().unwrap_or_else(|| stem.into_owned()),
+            map: map_source::name_from_anywhere(content.map.get_ref(), base),
             expect: content
                 .expect
                 .clone()
                 .unwrap_or_else(|| expectation::usual(&content.command.task)),
-            road: road(&content, &map.map, &place)?.with_objects(content.map_objects, &map.objects),
+            road: way::road(&content, &map.map, &place)?.with_objects(content.map_objects, &map.objects),
             file: content,
         };
         let first = Sampler::new(0, 0);
@@ -204,14 +203,16 @@ impl Family {
         };
         let mut rejected = Vec::new();
         for attempt in 0..ATTEMPTS {
-            match template.attempt(seed, &Sampler::new(seed, attempt)) {
-                Ok(scenario) => return Ok(Drawn { scenario, rejected }),
-                Err(reason) if self.fixed => {
-                    return Err(DrawError::Impossible {
-                        family: self.name.clone(),
-                        reason,
+            let sampler = Sampler::new(seed, attempt);
+            match template.attempt(seed, &sampler) {
+                Ok(scenario) => {
+                    return Ok(Drawn {
+                        scenario,
+                        rejected,
+                        parameters: sampler.into_drawn(),
                     });
                 }
+                Err(reason) if self.fixed => return Err(self.impossible(reason)),
                 Err(reason) => rejected.push(reason),
             }
         }
@@ -221,6 +222,69 @@ impl Family {
             rejected,
         })
     }
+
+    /// The scenario of one seed, but with these numbers at these quantiles of their laws, by the keys of [`Parameter`].
+    /// A key of a row member that this draw does not have is passed over.
+    ///
+    /// # Errors
+    /// [`DrawError`] when the seed gives no scenario, when it is impossible with these numbers, or when there is no such
+    /// number or quantile.
+    pub fn draw_at(&self, seed: u64, quantiles: &BTreeMap<String, f64>) -> Result<Drawn, DrawError> {
+        let wrong = quantiles
+            .iter()
+            .find(|(_, quantile)| !(0.0..=1.0).contains(*quantile));
+        if let Some((key, quantile)) = wrong {
+            return Err(DrawError::Told {
+                family: self.name.clone(),
+                key: key.clone(),
+                problem: format!("{quantile} is no quantile: expected a number from 0 to 1"),
+            });
+        }
+        self.draw_told(seed, Told::Quantiles(quantiles.clone()))
+    }
+
+    /// The scenario of one seed, but with these numbers, by the keys of [`Parameter`]; they need not be ones that the
+    /// laws give. A key of a row member that this draw does not have is passed over.
+    ///
+    /// # Errors
+    /// [`DrawError`] when the seed gives no scenario, when it is impossible with these numbers, or when one of them does
+    /// not exist or does not fit its place.
+    pub fn draw_fixed(&self, seed: u64, values: &BTreeMap<String, f64>) -> Result<Drawn, DrawError> {
+        self.draw_told(seed, Told::Values(values.clone()))
+    }
+
+    fn draw_told(&self, seed: u64, told: Told) -> Result<Drawn, DrawError> {
+        let usual = self.draw(seed)?;
+        let mut sampler = Sampler::with(seed, attempt_of(&usual), told);
+        let scenario = match &self.origin {
+            Origin::Drawn(template) => template.attempt(seed, &sampler),
+            Origin::Recorded { .. } => Ok(usual.scenario),
+        };
+        if let Some((key, problem)) = sampler.mistake() {
+            return Err(DrawError::Told {
+                family: self.name.clone(),
+                key,
+                problem,
+            });
+        }
+        Ok(Drawn {
+            scenario: scenario.map_err(|reason| self.impossible(reason))?,
+            rejected: usual.rejected,
+            parameters: sampler.into_drawn(),
+        })
+    }
+
+    fn impossible(&self, reason: Rejection) -> DrawError {
+        DrawError::Impossible {
+            family: self.name.clone(),
+            reason,
+        }
+    }
+}
+
+/// The attempt that gave a scenario: the one after all that were rejected.
+fn attempt_of(drawn: &Drawn) -> u32 {
+    u32::try_from(drawn.rejected.len()).expect("there are few attempts")
 }
 
 /// The text of a file. Scenes of other programs may be in other encodings than scenario files are.
@@ -276,154 +340,4 @@ impl Template {
             expect,
         })
     }
-}
-
-/// Finds the route and the lines along and beside it.
-fn road(
-    file: &ScenarioFile,
-    map: &Arc<RoadMap>,
-    place: &dyn Fn(&Spanned<String>) -> Place,
-) -> Result<Road, ScenarioError> {
-    let longest_run = file.cruise_speed.upper_end() * file.timeout.upper_end() + PLANNED_AHEAD;
-    let length = longest_run.clamp(LEAST_ROUTE, LONGEST_ROUTE);
-    if let Some(destination) = &file.destination {
-        return routed(file, destination, map, place, length);
-    }
-    let route = if file.route.is_empty() {
-        let start = match &file.ego.lane {
-            Some(name) => find(map, name, place)?,
-            None => route::first_lane(map).ok_or_else(|| ScenarioError::Route {
-                place: Box::new(place(&file.map)),
-                problem: "the map has no drivable lane outside junctions: name one as `lane` in `[ego]`"
-                    .to_owned(),
-            })?,
-        };
-        route::straight_on(map, start, length)
-    } else {
-        named_route(file, map, place)?
-    };
-    let side = match file.command.task {
-        Task::ChangeLane(side) => Some(side),
-        _ => None,
-    };
-    Road::new(Arc::clone(map), route, side, length).map_err(|error| ScenarioError::Route {
-        place: Box::new(place(
-            file.route.first().or(file.ego.lane.as_ref()).unwrap_or(&file.map),
-        )),
-        problem: error.to_string(),
-    })
-}
-
-/// The road that the router finds from the ego's lane to the destination.
-fn routed(
-    file: &ScenarioFile,
-    destination: &RoutePlace,
-    map: &Arc<RoadMap>,
-    place: &dyn Fn(&Spanned<String>) -> Place,
-    reach: f64,
-) -> Result<Road, ScenarioError> {
-    let error = |at: &Spanned<String>, problem: String| ScenarioError::Route {
-        place: Box::new(place(at)),
-        problem,
-    };
-    let Some(start) = &file.ego.lane else {
-        let problem = "a route needs to know where it begins: name the `lane` in `[ego]`";
-        return Err(error(&destination.lane, problem.to_owned()));
-    };
-    let mut way_points = vec![WayPoint::OnLane(Position {
-        lane: find(map, start, place)?,
-        s: 0.0,
-    })];
-    for at in file.via.iter().chain([destination]) {
-        let lane = find(map, &at.lane, place)?;
-        let s = at.s.unwrap_or(map.lane(lane).length());
-        way_points.push(WayPoint::OnLane(Position { lane, s }));
-    }
-    let graph = LaneGraph::new(map, RoutingConfig::default());
-    let response = graph
-        .route(map, &way_points, &BlackList::default())
-        .map_err(|problem| error(&destination.lane, problem.to_string()))?;
-    Road::routed(Arc::clone(map), response, reach).map_err(|problem| error(&destination.lane, problem))
-}
-
-/// The lanes that the file names, checked to follow each other.
-fn named_route(
-    file: &ScenarioFile,
-    map: &RoadMap,
-    place: &dyn Fn(&Spanned<String>) -> Place,
-) -> Result<Vec<LaneId>, ScenarioError> {
-    let mut route: Vec<LaneId> = Vec::new();
-    for name in &file.route {
-        let lane = find(map, name, place)?;
-        if let Some(last) = route
-            .last()
-            .map(|id| map.lane(*id))
-            .filter(|last| !last.successors.contains(&lane))
-        {
-            let next: Vec<&str> = last
-                .successors
-                .iter()
-                .map(|id| map.lane(*id).name.as_str())
-                .collect();
-            return Err(ScenarioError::Route {
-                place: Box::new(place(name)),
-                problem: format!(
-                    "lane `{}` does not follow `{}`: expected {}",
-                    name.get_ref(),
-                    last.name,
-                    list(&next)
-                ),
-            });
-        }
-        route.push(lane);
-    }
-    match &file.ego.lane {
-        Some(lane) if file.route.first().map(Spanned::get_ref) != Some(lane.get_ref()) => {
-            Err(ScenarioError::Route {
-                place: Box::new(place(lane)),
-                problem: format!("the route does not start in the ego's lane `{}`", lane.get_ref()),
-            })
-        }
-        _ => Ok(route),
-    }
-}
-
-fn find(
-    map: &RoadMap,
-    name: &Spanned<String>,
-    place: &dyn Fn(&Spanned<String>) -> Place,
-) -> Result<LaneId, ScenarioError> {
-    let error = |problem| ScenarioError::Route {
-        place: Box::new(place(name)),
-        problem,
-    };
-    let found = map.find(name.get_ref()).ok_or_else(|| {
-        let lanes = map.lanes().iter().filter(|lane| lane.kind.is_drivable());
-        let names: Vec<&str> = lanes.map(|lane| lane.name.as_str()).collect();
-        error(format!(
-            "the map has no lane `{}`: expected {}",
-            name.get_ref(),
-            list(&names)
-        ))
-    })?;
-    if !map.lane(found).kind.is_drivable() {
-        return Err(error(format!("lane `{}` is not for driving", name.get_ref())));
-    }
-    Ok(found)
-}
-
-/// Names for a message: the first dozen.
-fn list(names: &[&str]) -> String {
-    const SHOWN: usize = 12;
-    if names.is_empty() {
-        return "nothing, the map ends there".to_owned();
-    }
-    let shown: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{name}`")).collect();
-    let more = names.len().saturating_sub(SHOWN);
-    let tail = if more > 0 {
-        format!(" and {more} more")
-    } else {
-        String::new()
-    };
-    format!("{}{tail}", shown.join(", "))
 }

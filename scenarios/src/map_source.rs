@@ -197,6 +197,15 @@ fn endings() -> String {
     endings.join(", ")
 }
 
+/// The name by which a scenario file that lies elsewhere than in `base` finds the same map.
+pub(crate) fn name_from_anywhere(name: &str, base: &Path) -> String {
+    if !is_path(name) || name.starts_with(MAPS_PREFIX) {
+        return name.to_owned();
+    }
+    let path = base.join(name);
+    std::path::absolute(&path).unwrap_or(path).display().to_string()
+}
+
 fn is_path(name: &str) -> bool {
     name.contains(['/', '\\'])
         || Path::new(name).extension().is_some_and(|e| {

@@ -6,6 +6,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod endings;
+mod fixing;
 mod inputs;
 mod maps;
 mod outputs;

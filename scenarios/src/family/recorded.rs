@@ -78,5 +78,6 @@ pub(super) fn draw(scenarios: &[Scenario], seed: u64) -> Drawn {
             ..scenarios[place].clone()
         },
         rejected: Vec::new(),
+        parameters: Vec::new(),
     }
 }

@@ -35,21 +35,25 @@ pub(super) fn place_all(draft: &mut Draft, road: &Road, file: &ScenarioFile) -> 
     ] {
         for (k, row) in rows.iter().enumerate() {
             Placer::new(draft, road, row.common(), kind, (key, k))
-                .row(row, numbers.table(format_args!("{key}[{k}].")))?;
+                .row(row, &numbers.table(format_args!("{key}[{k}].")))?;
         }
     }
     for (k, car) in file.moving.iter().enumerate() {
         let table = numbers.table(format_args!("moving[{k}]."));
         let placer = Placer::new(draft, road, car.common(), ObstacleKind::Car, ("moving", k));
-        placer.driving(table, table.number("speed", &car.speed), Behaviour::ConstantSpeed)?;
+        placer.driving(
+            &table,
+            table.number("speed", &car.speed),
+            Behaviour::ConstantSpeed,
+        )?;
     }
     for (k, car) in file.idm.iter().enumerate() {
         let table = numbers.table(format_args!("idm[{k}]."));
-        Placer::new(draft, road, car.common(), ObstacleKind::Car, ("idm", k)).idm(car, table)?;
+        Placer::new(draft, road, car.common(), ObstacleKind::Car, ("idm", k)).idm(car, &table)?;
     }
     for (k, body) in file.scripted.iter().enumerate() {
         let table = numbers.table(format_args!("scripted[{k}]."));
-        Placer::new(draft, road, body.common(), ObstacleKind::Car, ("scripted", k)).scripted(body, table)?;
+        Placer::new(draft, road, body.common(), ObstacleKind::Car, ("scripted", k)).scripted(body, &table)?;
     }
     for (k, walker) in file.pedestrian.iter().enumerate() {
         let table = numbers.table(format_args!("pedestrian[{k}]."));
@@ -60,7 +64,7 @@ pub(super) fn place_all(draft: &mut Draft, road: &Road, file: &ScenarioFile) -> 
             ObstacleKind::Pedestrian,
             ("pedestrian", k),
         );
-        placer.pedestrian(walker, table)?;
+        placer.pedestrian(walker, &table)?;
     }
     Ok(())
 }
@@ -91,16 +95,22 @@ impl<'a, 'd> Placer<'a, 'd> {
         }
     }
 
-    fn shape(&self, table: Table<'_>) -> ConvexPolygon {
+    fn shape(&self, table: &Table<'_>) -> ConvexPolygon {
         placement::shape(&self.common, self.kind, table)
     }
 
     /// Station of the entry's centre on the route's line.
-    fn station(&self, table: Table<'_>) -> f64 {
+    fn station(&self, table: &Table<'_>) -> f64 {
         self.draft.ego_s + table.number("ahead", self.common.ahead)
     }
 
-    fn spot(&self, shape: &ConvexPolygon, s: f64, heading: f64, table: Table<'_>) -> Result<Spot, Rejection> {
+    fn spot(
+        &self,
+        shape: &ConvexPolygon,
+        s: f64,
+        heading: f64,
+        table: &Table<'_>,
+    ) -> Result<Spot, Rejection> {
         placement::spot(self.road, &self.name, &self.common, shape, s, heading, table)
     }
 
@@ -118,7 +128,7 @@ impl<'a, 'd> Placer<'a, 'd> {
     }
 
     /// A row of standing obstacles, each clear of the one before by its own spacing.
-    fn row(mut self, row: &Parked, table: Table<'_>) -> Result<(), Rejection> {
+    fn row(mut self, row: &Parked, table: &Table<'_>) -> Result<(), Rejection> {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -128,7 +138,8 @@ impl<'a, 'd> Placer<'a, 'd> {
         let mut s = self.station(table);
         let mut last_reach = 0.0;
         for k in 0..count {
-            let numbers = table.item(k);
+            let member = row.count.is_some().then(|| table.item(k));
+            let numbers = member.as_ref().unwrap_or(table);
             let shape = self.shape(numbers);
             let heading = numbers.number_or("heading", row.heading.as_ref(), 0.0);
             let [(back, front), _] = placement::extent(&shape, heading);
@@ -151,7 +162,7 @@ impl<'a, 'd> Placer<'a, 'd> {
     /// A body that drives along its lane.
     fn driving(
         mut self,
-        table: Table<'_>,
+        table: &Table<'_>,
         speed: f64,
         behaviour: impl FnOnce(AlongLine) -> Behaviour,
     ) -> Result<(), Rejection> {
@@ -193,7 +204,7 @@ impl<'a, 'd> Placer<'a, 'd> {
         })
     }
 
-    fn idm(self, car: &Idm, table: Table<'_>) -> Result<(), Rejection> {
+    fn idm(self, car: &Idm, table: &Table<'_>) -> Result<(), Rejection> {
         let usual = IdmParams::default();
         let speed = table.number("speed", &car.speed);
         let number = |key, value: Option<_>, default| table.number_or(key, value, default);
@@ -219,7 +230,7 @@ impl<'a, 'd> Placer<'a, 'd> {
             .as_ref()
             .map(|change| (change, table.table(format_args!("lane_change."))));
         self.driving(table, speed, |start| {
-            let lane_change = change.map(|(change, numbers)| lateral_move(road, &start, change, numbers));
+            let lane_change = change.map(|(change, numbers)| lateral_move(road, &start, change, &numbers));
             Behaviour::Idm {
                 start,
                 params,
@@ -228,7 +239,7 @@ impl<'a, 'd> Placer<'a, 'd> {
         })
     }
 
-    fn scripted(mut self, body: &Scripted, table: Table<'_>) -> Result<(), Rejection> {
+    fn scripted(mut self, body: &Scripted, table: &Table<'_>) -> Result<(), Rejection> {
         let shape = self.shape(table);
         let heading = table.number_or("heading", body.heading.as_ref(), 0.0);
         let spot = self.spot(&shape, self.station(table), heading, table)?;
@@ -258,7 +269,7 @@ impl<'a, 'd> Placer<'a, 'd> {
         Ok(())
     }
 
-    fn pedestrian(mut self, walker: &Pedestrian, table: Table<'_>) -> Result<(), Rejection> {
+    fn pedestrian(mut self, walker: &Pedestrian, table: &Table<'_>) -> Result<(), Rejection> {
         let shape = self.shape(table);
         let s = self.station(table);
         let spot = self.spot(&shape, s, 0.0, table)?;
@@ -300,7 +311,7 @@ fn facing(from: Pose, to: Pose) -> Pose {
 }
 
 /// When the obstacle of a table sets off.
-fn trigger(when: &When, table: Table<'_>) -> Trigger {
+fn trigger(when: &When, table: &Table<'_>) -> Trigger {
     match when {
         When::At(time) => Trigger::Time(table.number("when.at", time)),
         When::Within(distance) => Trigger::EgoWithin(table.number("when.within", distance)),
@@ -308,7 +319,7 @@ fn trigger(when: &When, table: Table<'_>) -> Trigger {
 }
 
 /// A change of lane, with its end in the frame of the line that the body drives on.
-fn lateral_move(road: &Road, start: &AlongLine, change: &LaneChange, table: Table<'_>) -> LateralMove {
+fn lateral_move(road: &Road, start: &AlongLine, change: &LaneChange, table: &Table<'_>) -> LateralMove {
     let to = table.number("to", &change.to);
     let to_l = if Arc::ptr_eq(&start.line, &road.line) {
         to

@@ -47,7 +47,7 @@ fn usual_size(kind: ObstacleKind) -> (f64, f64) {
 }
 
 /// The outline of an obstacle around its centre.
-pub(crate) fn shape(common: &Common<'_>, kind: ObstacleKind, numbers: Table<'_>) -> ConvexPolygon {
+pub(crate) fn shape(common: &Common<'_>, kind: ObstacleKind, numbers: &Table<'_>) -> ConvexPolygon {
     if let Some(outline) = common.polygon {
         return outline.0.clone();
     }
@@ -89,7 +89,7 @@ pub(crate) fn spot(
     shape: &ConvexPolygon,
     s: f64,
     heading: f64,
-    numbers: Table<'_>,
+    numbers: &Table<'_>,
 ) -> Result<Spot, Rejection> {
     let off_map = || Rejection::OffMap {
         obstacle: name.to_owned(),

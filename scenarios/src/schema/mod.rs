@@ -3,10 +3,13 @@
 //! TOML. Every number may be a law to draw it from; see [`number`]. What is read here is well-formed and in
 //! range, but nothing is placed on a road yet.
 
+mod law;
 pub mod number;
 pub mod obstacle;
 pub mod task;
 pub mod vehicle;
+
+pub use law::LawKind;
 
 use crate::error::{Place, ScenarioError};
 use number::{Number, Seconds, Speed};
@@ -40,6 +43,8 @@ pub struct ScenarioFile {
     /// Places to pass on the way there, in order.
     #[serde(default)]
     pub via: Vec<RoutePlace>,
+    /// Length of the route to follow, m; what the run may need when absent.
+    pub route_length: Option<f64>,
     /// Speed to drive where nothing limits it, m/s.
     #[serde(default = "default_cruise_speed")]
     pub cruise_speed: Number<Speed>,

@@ -3,6 +3,8 @@
 //! `3.5`, `{ uniform = [2, 8] }`, `{ normal = [5, 1], clamp = [2, 8] }`, `{ choice = [2, 4, 8] }`. The range that
 //! a place in the file allows is checked while reading, so that a message points at the value itself.
 
+use super::law::Law;
+use crate::parameter::Parameter;
 use crate::random::Stream;
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, Visitor};
@@ -10,7 +12,7 @@ use std::fmt;
 use std::marker::PhantomData;
 
 /// Keys of a law.
-const LAW_KEYS: &[&str] = &["uniform", "normal", "clamp", "choice"];
+pub(crate) const LAW_KEYS: &[&str] = &["uniform", "normal", "clamp", "choice"];
 
 /// The numbers a place in the file allows.
 pub trait Range {
@@ -103,19 +105,6 @@ pub struct Number<R> {
     range: PhantomData<R>,
 }
 
-/// How a number comes about.
-#[derive(Clone, Debug, PartialEq)]
-enum Law {
-    Fixed(f64),
-    Uniform(f64, f64),
-    Normal {
-        mean: f64,
-        standard_deviation: f64,
-        clamp: (f64, f64),
-    },
-    Choice(Vec<f64>),
-}
-
 impl<R: Range> Number<R> {
     /// A number that is always the same.
     pub fn fixed(value: f64) -> Self {
@@ -139,38 +128,31 @@ impl<R: Range> Number<R> {
 
     /// The largest number it can be.
     pub fn upper_end(&self) -> f64 {
-        match &self.law {
-            Law::Fixed(value) => *value,
-            Law::Uniform(_, high) => *high,
-            Law::Normal { clamp, .. } => clamp.1,
-            Law::Choice(values) => values.iter().copied().fold(f64::MIN, f64::max),
-        }
+        self.law.ends().1
     }
 
     /// Draws the number. A whole uniform number takes both ends.
     pub fn draw(&self, stream: &mut Stream) -> f64 {
-        match &self.law {
-            Law::Fixed(value) => *value,
-            Law::Uniform(low, high) if R::WHOLE => {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "whole numbers of at most 200, ascending"
-                )]
-                let choices = (high - low) as usize + 1;
-                low + stream.index(choices) as f64
-            }
-            Law::Uniform(low, high) => stream.uniform(*low, *high),
-            Law::Normal {
-                mean,
-                standard_deviation,
-                clamp: (low, high),
-            } => {
-                let value = stream.normal(*mean, *standard_deviation).clamp(*low, *high);
-                if R::WHOLE { value.round() } else { value }
-            }
-            Law::Choice(values) => values[stream.index(values.len())],
-        }
+        self.law.draw(stream, R::WHOLE)
+    }
+
+    /// The number at a quantile of its law, from 0 to 1.
+    pub fn at(&self, quantile: f64) -> f64 {
+        self.law.at(quantile, R::WHOLE)
+    }
+
+    /// What there is to tell of `value`, which its law gave for the number called `key`; nothing where it has no law.
+    pub fn parameter(&self, key: String, value: f64) -> Option<Parameter> {
+        let (low, high) = self.law.ends();
+        self.law.kind().map(|law| Parameter {
+            key,
+            value,
+            quantile: self.law.quantile(value, R::WHOLE),
+            law,
+            low,
+            high,
+            steps: self.law.steps(R::WHOLE),
+        })
     }
 }
 

@@ -10,7 +10,7 @@ use std::path::Path;
 const SEEDS: u64 = 20;
 
 /// All families whose maps are here. The shared ones may be absent, unless the environment requires them.
-fn families() -> Vec<(&'static str, Family)> {
+pub(crate) fn families() -> Vec<(&'static str, Family)> {
     let maps = MapCache::new();
     let mut families = Vec::new();
     for entry in ENTRIES {

@@ -4,7 +4,9 @@
 
 mod catalog;
 mod drawing;
+mod fixed;
 mod mistakes;
+mod parameters;
 mod placing;
 mod road;
 mod validity;

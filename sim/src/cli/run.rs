@@ -39,6 +39,9 @@ pub(crate) struct Run {
     /// Change a setting, as in `decider.path_bounds.obstacle_lat_buffer=0.3` or `profile=apollo`.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<String>,
+    /// Write the scenario of this seed to a file in which no number is random any more.
+    #[arg(long, value_name = "FILE")]
+    fix: Option<PathBuf>,
     #[command(flatten)]
     planner: PlannerChoice,
     #[command(flatten)]
@@ -65,6 +68,9 @@ impl Run {
                 .map_warnings()
                 .iter()
                 .for_each(|warning| output::note(&format!("note: {warning}")));
+        }
+        if let Some(path) = &self.fix {
+            output::write(path, &family.fixed(seed)?)?;
         }
         let drawn = family.draw(seed)?;
         let verdict = self.run(&family, &drawn.scenario, &settings)?;
