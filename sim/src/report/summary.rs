@@ -25,6 +25,10 @@ pub struct ScenarioSummary {
     pub off_road: u64,
     /// Median of the progress, where it was measured.
     pub progress: Option<f64>,
+    /// Mean of nuPlan's score over the judged runs.
+    pub nuplan_cls: Option<f64>,
+    /// Mean of the extended score over them.
+    pub ext_cls: Option<f64>,
     /// Runs that were asked to pull over, and how many did.
     pub pull_overs: PullOvers,
     /// Upper bound of the failure rate at 95 %, from the judged runs.
@@ -61,6 +65,10 @@ impl ScenarioSummary {
         let passed = count(&|row| row.passed());
         let judged = rows.len() as u64 - broken;
         let progress: Vec<f64> = rows.iter().filter_map(|row| row.metric("progress")).collect();
+        let mean = |name: &str| {
+            let values: Vec<f64> = rows.iter().filter_map(|row| row.metric(name)).collect();
+            (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+        };
         let asked = |row: &SweepRow| row.metric("pull_over_success").is_some();
         let seed_of = |best: Option<&SweepRow>| best.map(|row| row.seed);
         Self {
@@ -72,6 +80,8 @@ impl ScenarioSummary {
             at_fault: count(&|row| fails(row, "no_at_fault_collision")),
             off_road: count(&|row| fails(row, "drivable_area")),
             progress: percentile(&progress, 50.0),
+            nuplan_cls: mean("nuplan_cls"),
+            ext_cls: mean("ext_cls"),
             pull_overs: PullOvers {
                 asked: count(&asked),
                 done: count(&|row| asked(row) && row.ending() == Some(Ending::PulledOver)),

@@ -54,7 +54,7 @@ impl Colour {
 }
 
 /// Headings of the columns; the first is left-aligned, the others right-aligned.
-const HEADINGS: [&str; 12] = [
+const HEADINGS: [&str; 14] = [
     "scenario",
     "runs",
     "passed",
@@ -63,6 +63,8 @@ const HEADINGS: [&str; 12] = [
     "at fault",
     "off road",
     "progress",
+    "nuplan_cls",
+    "ext_cls",
     "pulled over",
     "failures <",
     "worst seed",
@@ -78,7 +80,8 @@ pub fn to_table(report: &SweepReport, colour: Colour) -> String {
     text
 }
 
-fn cells(summary: &ScenarioSummary) -> [String; 12] {
+fn cells(summary: &ScenarioSummary) -> [String; 14] {
+    let score = |score: Option<f64>| score.map_or("-".to_owned(), |score| format!("{score:.3}"));
     let seed = |seed: Option<u64>| seed.map_or("-".to_owned(), |s| s.to_string());
     let pull_overs = &summary.pull_overs;
     [
@@ -92,6 +95,8 @@ fn cells(summary: &ScenarioSummary) -> [String; 12] {
         summary
             .progress
             .map_or("-".to_owned(), |p| format!("{:.0} %", p * 100.0)),
+        score(summary.nuplan_cls),
+        score(summary.ext_cls),
         if pull_overs.asked == 0 {
             "-".to_owned()
         } else {
