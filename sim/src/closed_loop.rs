@@ -73,7 +73,7 @@ impl ClosedLoop {
             route: Route::new(scenario, &settings.decider.lane_follow),
             decider: Decider::new(scenario.vehicle, settings),
             tracker: Tracker::new(scenario.vehicle, tracking),
-            monitor: Monitor::new(scenario),
+            monitor: Monitor::new(scenario).with_rss(settings.rss),
             story: Story::new(scenario),
             sensor_range: perception::SENSOR_RANGE,
             digest: Fnv::new(),

@@ -1,6 +1,7 @@
 //! Everything about a run that is not the scenario: the decider, the physics, the period, a planted fault.
 
 use crate::faults::{Failure, Fault};
+use crate::monitor::RssProfile;
 use crate::world::PhysicsConfig;
 use corridor_decider::config::Config;
 use serde::{Deserialize, Serialize};
@@ -19,6 +20,8 @@ pub struct Settings {
     pub fault: Fault,
     /// Parts that fail for a while.
     pub failures: Vec<Failure>,
+    /// The safe distances that the monitor holds a run against.
+    pub rss: RssProfile,
 }
 
 impl Default for Settings {
@@ -29,6 +32,7 @@ impl Default for Settings {
             tick: 0.1,
             fault: Fault::None,
             failures: Vec::new(),
+            rss: RssProfile::default(),
         }
     }
 }
@@ -121,6 +125,13 @@ impl Settings {
                 key: "physics.dt".to_owned(),
                 value: self.physics.dt.to_string(),
                 problem: format!("must be {shortest} to {longest} s"),
+            });
+        }
+        if !self.rss.is_sound() {
+            return Err(SettingError::Value {
+                key: "rss".to_owned(),
+                value: "…braking=0".to_owned(),
+                problem: "nobody can be without brakes: each braking must be above 0".to_owned(),
             });
         }
         let ratio = self.tick / self.physics.dt;

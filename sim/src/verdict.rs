@@ -31,6 +31,13 @@ pub struct Verdict {
     pub digest: String,
 }
 
+impl Verdict {
+    /// The metric of this name.
+    pub fn metric(&self, name: &str) -> Option<&Metric> {
+        self.metrics.iter().find(|metric| metric.name == name)
+    }
+}
+
 /// The ticks that ended on one rung for one reason.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FallbackCount {

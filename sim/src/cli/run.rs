@@ -119,6 +119,21 @@ impl Run {
     }
 }
 
+/// What a run is compared with others by, in one line.
+fn scores(verdict: &Verdict) -> String {
+    let number = |name: &str, digits: usize| {
+        let value = verdict.metric(name).and_then(|metric| metric.value);
+        value.map_or("-".to_owned(), |value| format!("{value:.digits$}"))
+    };
+    format!(
+        "  nuplan_cls {}, ext_cls {}, progress {}, collisions {}\n",
+        number("nuplan_cls", 3),
+        number("ext_cls", 3),
+        number("progress", 3),
+        number("no_collision", 0)
+    )
+}
+
 /// The verdict for a terminal: gates that failed are marked `!`, other metrics beyond their threshold `*`.
 fn text(verdict: &Verdict) -> String {
     let mut text = format!(
@@ -126,6 +141,7 @@ fn text(verdict: &Verdict) -> String {
         if verdict.pass { "PASS" } else { "FAIL" },
         verdict.summary
     );
+    text.push_str(&scores(verdict));
     for metric in &verdict.metrics {
         let value = metric.value.map_or("-".to_owned(), |value| format!("{value:.3}"));
         let threshold = metric

@@ -4,11 +4,12 @@
 //! geometry at the contact. World frame, SI units.
 
 use super::avoidance::History;
+use super::impact;
 use super::measure::{Extreme, Measure, name_of};
 use super::road::OFF_ROAD_TOLERANCE;
 use super::view::{Motion, StepView};
 use crate::verdict::{Collision, CollisionClass};
-use corridor_decider::frame::{EgoState, ObstacleId};
+use corridor_decider::frame::{EgoState, ObstacleId, ObstacleKind};
 use corridor_decider::geometry::{ConvexPolygon, Vec2};
 use corridor_decider::road::RoadMap;
 use corridor_decider::vehicle::VehicleParams;
@@ -21,7 +22,10 @@ const STOPPED_SPEED: f64 = 0.05;
 pub(super) const COS_BEHIND: f64 = -0.866_025_403_784_438_6;
 
 /// Clearance below which people begin to wonder, m: the nominal lateral buffer of the bounds.
-const CLEARANCE_WARNING: f64 = 0.4;
+pub(super) const CLEARANCE_WARNING: f64 = 0.4;
+
+/// Good number of contacts.
+pub(super) const NONE: f64 = 0.0;
 
 /// All first contacts of a run.
 #[derive(Clone, Debug, Default)]
@@ -77,6 +81,27 @@ impl CollisionJudge {
         }
     }
 
+    /// nuPlan's multiplier: 0 after any contact with people or vehicles for which the ego is to blame, a half after one
+    /// with a mere thing.
+    pub(super) fn multiplier(&self, scenario: &Scenario) -> f64 {
+        let (mut things, mut others) = (0, 0);
+        for (collision, id) in self.collisions.iter().zip(&self.touched) {
+            let obstacle = scenario.obstacles.get(id.0 as usize);
+            let is_thing =
+                obstacle.is_some_and(|o| matches!(o.kind, ObstacleKind::Cone | ObstacleKind::Other));
+            match (collision.at_fault, is_thing) {
+                (true, true) => things += 1,
+                (true, false) => others += 1,
+                (false, _) => (),
+            }
+        }
+        match (things, others) {
+            (0, 0) => 1.0,
+            (1, 0) => 0.5,
+            _ => 0.0,
+        }
+    }
+
     pub(super) fn measures(&self) -> Vec<Measure> {
         let first = self.collisions.first();
         let count = |wanted: &dyn Fn(&Collision) -> bool| {
@@ -86,16 +111,14 @@ impl CollisionJudge {
             let measure = Measure::new(name, value).at(first.map(|c| c.time));
             measure.with(self.touched.first().copied())
         };
-        vec![
-            named("no_collision", count(&|_| true)).at_most(0.0).gate(),
-            named("no_at_fault_collision", count(&|c| c.at_fault))
-                .at_most(0.0)
-                .gate(),
+        let mut measures = vec![
+            named("no_collision", count(&|_| true)),
+            named("no_at_fault_collision", count(&|c| c.at_fault)),
             named("avoidable_collisions", count(&|c| c.avoidable)),
-            self.clearance
-                .measure("min_clearance")
-                .at_least(CLEARANCE_WARNING),
-        ]
+            self.clearance.measure("min_clearance"),
+        ];
+        measures.extend(impact::measures(&self.collisions, &self.touched));
+        measures
     }
 }
 

@@ -10,8 +10,11 @@ use corridor_decider::frame::Frame;
 use corridor_decider::geometry::Pose;
 use corridor_decider::tasks::path_bounds::PathBound;
 
+/// Good number of unsound answers.
+pub(super) const NO_VIOLATION: f64 = 0.0;
+
 /// Changes of the target after its first choice that are good.
-const RETARGET_LIMIT: f64 = 1.0;
+pub(super) const RETARGET_LIMIT: f64 = 1.0;
 
 /// A target that moved less is the same, m: below it lies the noise of searching again from a moved ego.
 const SAME_TARGET: f64 = 0.1;
@@ -82,10 +85,7 @@ impl DeciderWatch {
         let first = self.first.as_ref().map(|(time, _)| *time);
         let retargets = self.target.map(|_| f64::from(self.retargets));
         let retargets = self.last_retarget.measure("pull_over_retargets").value(retargets);
-        vec![
-            violations.at(first).at_most(0.0).gate(),
-            retargets.at_most(RETARGET_LIMIT),
-        ]
+        vec![violations.at(first), retargets]
     }
 }
 

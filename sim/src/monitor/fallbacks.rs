@@ -8,7 +8,7 @@ use corridor_decider::frame::Frame;
 use corridor_decider::tasks::path_bounds::Label;
 
 /// Largest share of ticks on a fallback in a situation that can be solved.
-const FALLBACK_LIMIT: f64 = 0.05;
+pub(super) const FALLBACK_LIMIT: f64 = 0.05;
 
 /// Counts the ticks that were not planned.
 #[derive(Clone, Debug, Default)]
@@ -71,7 +71,7 @@ impl FallbackWatch {
     pub(super) fn measures(&self) -> Vec<Measure> {
         let ratio = (self.ticks > 0).then(|| f64::from(self.fallen_back) / f64::from(self.ticks));
         vec![
-            Measure::new("fallback_ratio", ratio).at_most(FALLBACK_LIMIT),
+            Measure::new("fallback_ratio", ratio),
             self.longest.measure("fallback_longest"),
         ]
     }

@@ -8,13 +8,13 @@ use corridor_decider::tasks::path_bounds::{EdgeCause, Label};
 use std::collections::BTreeMap;
 
 /// Good number of changes of the driven label in a minute.
-const LABEL_LIMIT: f64 = 6.0;
+pub(super) const LABEL_LIMIT: f64 = 6.0;
 
 /// Good number of changes of the side on which one obstacle is passed.
-const SIDE_LIMIT: f64 = 1.0;
+pub(super) const SIDE_LIMIT: f64 = 1.0;
 
-/// Shortest run over which a rate says anything, s: in less, one change would be many a minute.
-const SHORTEST: f64 = 10.0;
+/// Least time over which changes are counted, s: in a run of 10 s one borrow, out and back, would be twelve a minute.
+const SHORTEST: f64 = 60.0;
 
 /// The side on which an obstacle is passed, and how often that changed.
 #[derive(Clone, Copy, Debug)]
@@ -68,10 +68,9 @@ impl LabelWatch {
     pub(super) fn measures(&self) -> Vec<Measure> {
         let minutes = self.begin.map(|begin| (self.end - begin).max(SHORTEST) / 60.0);
         let rate = minutes.map(|m| f64::from(self.flips) / m);
-        let rate = Measure::new("label_flips", rate).at(self.last_flip);
         vec![
-            rate.at_most(LABEL_LIMIT),
-            self.sides.measure("side_flips").at_most(SIDE_LIMIT),
+            Measure::new("label_flips", rate).at(self.last_flip),
+            self.sides.measure("side_flips"),
         ]
     }
 }

@@ -1,5 +1,6 @@
 //! From observations to metrics: extremes with their moment, longest spans, percentiles and limits.
 
+use super::metrics::{self, Limit};
 use crate::verdict::Metric;
 use corridor_decider::frame::ObstacleId;
 
@@ -67,35 +68,23 @@ impl LongestSpan {
     }
 }
 
-/// What a value is compared with.
-#[derive(Clone, Copy, Debug)]
-enum Limit {
-    Reported,
-    AtMost(f64),
-    Below(f64),
-    AtLeast(f64),
-    Above(f64),
-}
-
-/// A metric in the making: names of obstacles are filled in at the end.
+/// A metric in the making: limit, role and the obstacle's name are filled in at the end.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Measure {
     name: &'static str,
     value: Option<f64>,
-    limit: Limit,
-    gate: bool,
+    waived: bool,
     time: Option<f64>,
     obstacle: Option<ObstacleId>,
 }
 
 impl Measure {
-    /// A reported value.
+    /// A value of the metric of this name.
     pub(super) fn new(name: &'static str, value: Option<f64>) -> Self {
         Self {
             name,
             value,
-            limit: Limit::Reported,
-            gate: false,
+            waived: false,
             time: None,
             obstacle: None,
         }
@@ -116,64 +105,25 @@ impl Measure {
         Self { obstacle, ..self }
     }
 
-    /// Good while the value is not above `limit`.
-    pub(super) fn at_most(self, limit: f64) -> Self {
-        let limit = Limit::AtMost(limit);
-        Self { limit, ..self }
-    }
-
-    /// Good while the value is below `limit`.
-    pub(super) fn below(self, limit: f64) -> Self {
-        let limit = Limit::Below(limit);
-        Self { limit, ..self }
-    }
-
-    /// Good while the value is not below `limit`.
-    pub(super) fn at_least(self, limit: f64) -> Self {
-        let limit = Limit::AtLeast(limit);
-        Self { limit, ..self }
-    }
-
-    /// Good while the value is above `limit`.
-    pub(super) fn above(self, limit: f64) -> Self {
-        let limit = Limit::Above(limit);
-        Self { limit, ..self }
-    }
-
-    /// Failing it fails the run.
-    pub(super) fn gate(self) -> Self {
-        self.gate_if(true)
-    }
-
-    /// Failing it fails the run when `gate` holds.
-    pub(super) fn gate_if(self, gate: bool) -> Self {
-        Self { gate, ..self }
-    }
-
-    fn pass(&self) -> bool {
-        self.value.is_none_or(|value| match self.limit {
-            Limit::Reported => true,
-            Limit::AtMost(limit) => value <= limit,
-            Limit::Below(limit) => value < limit,
-            Limit::AtLeast(limit) => value >= limit,
-            Limit::Above(limit) => value > limit,
-        })
+    /// The same without its limit unless `holds`.
+    pub(super) fn only_if(self, holds: bool) -> Self {
+        Self {
+            waived: !holds,
+            ..self
+        }
     }
 
     /// The finished metric; `names` are those of the obstacles, by their ids.
     pub(super) fn into_metric(self, names: &[String]) -> Metric {
-        let threshold = match self.limit {
-            Limit::Reported => None,
-            Limit::AtMost(limit) | Limit::Below(limit) | Limit::AtLeast(limit) | Limit::Above(limit) => {
-                Some(limit)
-            }
-        };
+        let definition = metrics::find(self.name).expect("every metric is in the list");
+        let limit = definition.limit.filter(|_| !self.waived);
+        let holds = |limit: Limit| self.value.is_none_or(|value| limit.holds(value));
         Metric {
             name: self.name.to_owned(),
             value: self.value,
-            threshold,
-            pass: self.pass(),
-            gate: self.gate,
+            threshold: limit.map(Limit::threshold),
+            pass: limit.is_none_or(holds),
+            gate: definition.is_gate() && !self.waived,
             worst_t: self.time,
             worst_obstacle: self.obstacle.map(|id| name_of(names, id)),
         }
@@ -199,8 +149,8 @@ mod tests {
             worst.raise(value, 0.5, None);
         }
         assert!(worst.value.unwrap().is_nan());
-        assert!(!worst.measure("x").at_most(1e9).into_metric(&[]).pass);
-        assert!(!worst.measure("x").at_least(-1e9).into_metric(&[]).pass);
+        assert!(!worst.measure("drivable_area").into_metric(&[]).pass);
+        assert!(!worst.measure("ttc").into_metric(&[]).pass);
     }
 
     #[test]
@@ -209,19 +159,18 @@ mod tests {
         for (time, holds) in [(0.0, true), (0.1, true), (0.2, false), (0.3, true), (0.9, true)] {
             span.sample(holds, time);
         }
-        let measure = span.measure("x");
+        let measure = span.measure("standstill");
         let metric = measure.into_metric(&[]);
         assert!((metric.value.unwrap() - 0.6).abs() < 1e-12 && metric.worst_t == Some(0.9));
     }
 
     #[test]
-    fn limits_hold_from_their_own_side() {
-        let pass = |measure: Measure| measure.into_metric(&[]).pass;
-        let at = |value| Measure::new("x", Some(value));
-        assert!(pass(at(1.0).at_most(1.0)) && !pass(at(1.0 + 1e-12).at_most(1.0)));
-        assert!(pass(at(1.0).at_least(1.0)) && !pass(at(1.0 - 1e-12).at_least(1.0)));
-        assert!(!pass(at(1.0).below(1.0)) && pass(at(1.0 - 1e-12).below(1.0)));
-        assert!(!pass(at(1.0).above(1.0)) && pass(at(1.0 + 1e-12).above(1.0)));
-        assert!(pass(Measure::new("x", None).below(1.0)));
+    fn what_was_not_measured_or_is_waived_passes() {
+        let metric = |value| Measure::new("progress_min", value);
+        assert!(metric(None).into_metric(&[]).pass && metric(None).into_metric(&[]).gate);
+        let failed = metric(Some(0.1)).into_metric(&[]);
+        assert!(!failed.pass && failed.gate && failed.threshold == Some(0.2));
+        let waived = metric(Some(0.1)).only_if(false).into_metric(&[]);
+        assert!(waived.pass && !waived.gate && waived.threshold.is_none());
     }
 }

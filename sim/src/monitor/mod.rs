@@ -12,29 +12,38 @@ mod blocks;
 mod bound_clearance;
 mod bounds;
 mod collision;
+mod consistency;
 mod decider;
 mod ending;
 mod fallbacks;
+mod following;
+mod impact;
 mod labels;
 mod measure;
+pub mod metrics;
 mod motion;
 mod path_clearance;
+mod pet;
 mod plan;
 mod progress;
 mod pull_over;
 mod reference_search;
 mod road;
+mod rss;
 mod savitzky_golay;
 mod score;
 mod silhouette;
 mod standstill;
 pub(crate) mod summary;
+mod surroundings;
 #[cfg(test)]
 mod tests;
+mod tr1;
 mod tracking;
 mod ttc;
 mod view;
 
+pub use rss::RssProfile;
 pub use view::{Motion, StepView, Traffic};
 
 use crate::signature::Signature;
@@ -45,6 +54,7 @@ use corridor_decider::reference_line::LineQuery;
 use corridor_scenarios::Scenario;
 use measure::Measure;
 use plan::Plan;
+use std::sync::Arc;
 use view::Sample;
 
 /// Time between two samples, s.
@@ -65,6 +75,7 @@ pub struct Monitor {
     /// Where along the scenario's line the ego was at the last sample, m.
     station: Option<f64>,
     history: avoidance::History,
+    surroundings: surroundings::Surroundings,
     collision: collision::CollisionJudge,
     road: road::RoadWatch,
     progress: progress::ProgressWatch,
@@ -73,6 +84,7 @@ pub struct Monitor {
     fallbacks: fallbacks::FallbackWatch,
     ttc: ttc::TtcWatch,
     motion: motion::MotionWatch,
+    consistency: consistency::ConsistencyWatch,
     silhouettes: silhouette::Silhouettes,
     bounds: bounds::BoundWatch,
     bound_clearance: bound_clearance::BoundClearanceWatch,
@@ -81,6 +93,10 @@ pub struct Monitor {
     labels: labels::LabelWatch,
     pull_over: pull_over::PullOverWatch,
     tracking: tracking::TrackingWatch,
+    rss: rss::RssWatch,
+    following: following::FollowingWatch,
+    pet: pet::PetWatch,
+    tr1: tr1::Tr1Watch,
     ending: ending::EndingWatch,
 }
 
@@ -94,6 +110,7 @@ impl Monitor {
             samples: 0,
             station: None,
             history: avoidance::History::default(),
+            surroundings: surroundings::Surroundings::default(),
             collision: collision::CollisionJudge::default(),
             road: road::RoadWatch::default(),
             progress: progress::ProgressWatch::new(scenario),
@@ -102,6 +119,7 @@ impl Monitor {
             fallbacks: fallbacks::FallbackWatch::default(),
             ttc: ttc::TtcWatch::new(scenario),
             motion: motion::MotionWatch::default(),
+            consistency: consistency::ConsistencyWatch::default(),
             silhouettes: silhouette::Silhouettes::default(),
             bounds: bounds::BoundWatch::default(),
             bound_clearance: bound_clearance::BoundClearanceWatch::default(),
@@ -110,8 +128,21 @@ impl Monitor {
             labels: labels::LabelWatch::default(),
             pull_over: pull_over::PullOverWatch::default(),
             tracking: tracking::TrackingWatch::default(),
+            rss: rss::RssWatch::default(),
+            following: following::FollowingWatch::default(),
+            pet: pet::PetWatch::default(),
+            tr1: tr1::Tr1Watch::default(),
             ending: ending::EndingWatch::default(),
             scenario: scenario.clone(),
+        }
+    }
+
+    /// The same with other safe distances.
+    #[must_use]
+    pub fn with_rss(self, profile: RssProfile) -> Self {
+        Self {
+            rss: rss::RssWatch::new(profile),
+            ..self
         }
     }
 
@@ -136,6 +167,7 @@ impl Monitor {
         self.decider.tick(frame, decision, &plan);
         self.fallbacks.tick(frame, decision);
         self.bounds.tick(frame, self.plan.as_ref(), &plan);
+        self.consistency.tick(self.plan.as_ref(), &plan);
         self.obstacles(frame, decision, &plan);
         self.labels.tick(frame, &plan);
         self.ending.tick(&self.scenario, &plan);
@@ -177,10 +209,13 @@ impl Monitor {
             |before| line.to_frenet_near(position, before),
         );
         self.station = Some(at.s);
+        let planned = self.plan.as_ref().and_then(|plan| plan.line.as_ref());
+        let planned = planned.filter(|planned| !Arc::ptr_eq(planned, line));
         let sample = Sample {
             view: *view,
             scenario: &self.scenario,
             at,
+            planned: planned.map_or(at, |planned| planned.to_frenet(position)),
             plan: self.plan.as_ref(),
         };
         self.history.sample(&sample);
@@ -192,6 +227,11 @@ impl Monitor {
         self.bounds.sample(&sample);
         self.pull_over.sample(&sample);
         self.tracking.sample(&sample);
+        self.surroundings.look(&sample);
+        self.rss.sample(&sample, &self.surroundings);
+        self.following.sample(view.time, &self.surroundings);
+        self.pet.sample(&sample);
+        self.tr1.sample(&sample, &self.surroundings);
         self.ending.sample(&sample, &self.progress, &self.pull_over);
     }
 
@@ -221,18 +261,19 @@ impl Monitor {
         }
     }
 
-    /// Every metric, gates first, otherwise in the order of the parts.
+    /// Every metric of the list, in its order, but gates first.
     fn metrics(&self, is_expected: bool) -> Vec<Metric> {
         let completed = Measure::new("scenario_completed", Some(f64::from(u8::from(is_expected))));
         let mut measures = self.collision.measures();
         measures.extend(self.road.measures());
         measures.extend(self.progress.measures());
         measures.extend(self.standstill.measures());
-        measures.push(completed.at_least(1.0).gate());
+        measures.push(completed);
         measures.extend(self.decider.measures());
         measures.extend(self.fallbacks.measures());
         measures.extend(self.ttc.measures());
         measures.extend(self.motion.measures());
+        measures.extend(self.consistency.measures());
         measures.extend(self.bounds.measures());
         measures.extend(self.bound_clearance.measures());
         measures.extend(self.path_clearance.measures());
@@ -240,10 +281,18 @@ impl Monitor {
         measures.extend(self.labels.measures());
         measures.extend(self.pull_over.measures(&self.scenario));
         measures.extend(self.tracking.measures());
+        measures.extend(self.rss.measures());
+        measures.extend(self.following.measures());
+        measures.extend(self.pet.measures());
+        measures.extend(self.tr1.measures());
         let named = measures.into_iter().map(|m| m.into_metric(&self.names));
         let mut metrics: Vec<Metric> = named.collect();
-        metrics.push(score::nuplan_score(&metrics).into_metric(&self.names));
-        metrics.sort_by_key(|m| !m.gate);
+        let scores = score::scores(&metrics, self.collision.multiplier(&self.scenario));
+        metrics.extend(scores.map(|score| score.into_metric(&self.names)));
+        metrics.sort_by_key(|metric| {
+            let place = metrics::definitions().position(|definition| definition.name == metric.name);
+            (!metric.gate, place)
+        });
         metrics
     }
 }

@@ -15,25 +15,25 @@ const ACCELERATION_WINDOW: usize = 8;
 const RATE_WINDOW: usize = 15;
 
 /// Hardest comfortable braking, m/s² (nuPlan; the next five too).
-const MAX_BRAKING: f64 = 4.05;
+pub(super) const MAX_BRAKING: f64 = 4.05;
 /// Strongest comfortable acceleration, m/s².
-const MAX_ACCELERATION: f64 = 2.40;
+pub(super) const MAX_ACCELERATION: f64 = 2.40;
 /// Largest comfortable lateral acceleration, m/s².
-const MAX_LATERAL: f64 = 4.89;
+pub(super) const MAX_LATERAL: f64 = 4.89;
 /// Largest comfortable yaw acceleration, rad/s².
-const MAX_YAW_ACCELERATION: f64 = 1.93;
+pub(super) const MAX_YAW_ACCELERATION: f64 = 1.93;
 /// Largest comfortable yaw rate, rad/s.
-const MAX_YAW_RATE: f64 = 0.95;
+pub(super) const MAX_YAW_RATE: f64 = 0.95;
 /// Largest comfortable longitudinal jerk, m/s³.
-const MAX_LON_JERK: f64 = 4.13;
+pub(super) const MAX_LON_JERK: f64 = 4.13;
 /// Largest comfortable jerk, m/s³.
-const MAX_JERK: f64 = 8.37;
+pub(super) const MAX_JERK: f64 = 8.37;
 
 /// Mean overspeed at which the score is 0, m/s (nuPlan).
 const OVERSPEED_SCALE: f64 = 2.23;
 
 /// Overspeed that nuPlan calls a violation, m/s.
-const OVERSPEED_VIOLATION: f64 = 1.0;
+pub(super) const OVERSPEED_VIOLATION: f64 = 1.0;
 
 /// The motion of a whole run, sampled.
 #[derive(Clone, Debug, Default)]
@@ -76,15 +76,11 @@ impl MotionWatch {
         let score = (1.0 - self.overspeed_integral / (OVERSPEED_SCALE * duration)).max(0.0);
         let score = self.overspeed.value.map(|_| score);
         let mut measures = vec![
-            worst.measure("comfort").at_most(1.0),
-            Measure::new("speed_limit", score),
-            self.overspeed.measure("overspeed").at_most(OVERSPEED_VIOLATION),
+            worst.measure("comfort"),
+            Measure::new("speed_limit", score).at(self.overspeed.time),
+            self.overspeed.measure("overspeed"),
         ];
-        measures.extend(
-            parts
-                .iter()
-                .map(|(name, part, limit)| part.measure(name).at_most(*limit)),
-        );
+        measures.extend(parts.iter().map(|(name, part, _)| part.measure(name)));
         measures
     }
 

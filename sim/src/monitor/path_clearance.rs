@@ -12,6 +12,9 @@ use corridor_decider::vehicle::VehicleParams;
 /// Distances beyond this are not measured, m: nobody asks whether a path is a metre or two from a wall.
 const NEAR: f64 = 0.5;
 
+/// Distance at which the body touches, m: it has to stay above.
+pub(super) const TOUCHING: f64 = 0.0;
+
 /// Watches the driven paths.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PathClearanceWatch {
@@ -47,7 +50,7 @@ impl PathClearanceWatch {
     }
 
     pub(super) fn measures(&self) -> Vec<Measure> {
-        vec![self.least.measure("path_obstacle_clearance").above(0.0).gate()]
+        vec![self.least.measure("path_obstacle_clearance")]
     }
 }
 

@@ -44,12 +44,13 @@ impl Plan {
         self.bound.as_ref().map(|bound| bound.label)
     }
 
+    /// Whether the ego borrows another lane.
+    pub(super) fn borrows(&self) -> bool {
+        matches!(self.label(), Some(Label::Regular { borrow, .. }) if borrow != Borrow::None)
+    }
+
     /// Whether the ego has a reason to be outside its lane: it borrows one, changes lanes or pulls over.
     pub(super) fn leaves_lane(&self) -> bool {
-        match self.label() {
-            Some(Label::PullOver | Label::LaneChange) => true,
-            Some(Label::Regular { borrow, .. }) => borrow != Borrow::None,
-            Some(Label::Fallback) | None => false,
-        }
+        self.borrows() || matches!(self.label(), Some(Label::PullOver | Label::LaneChange))
     }
 }

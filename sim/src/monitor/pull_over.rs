@@ -17,13 +17,15 @@ const APPROACH_ENDS: f64 = -3.0;
 /// Largest rest to the target, m. Any overshoot fails.
 const MAX_S_ERROR: f64 = 0.5;
 /// Largest error to the side, m.
-const MAX_L_ERROR: f64 = 1.0;
+pub(super) const MAX_L_ERROR: f64 = 1.0;
 /// Largest error of the heading, rad.
-const MAX_THETA_ERROR: f64 = 0.2;
+pub(super) const MAX_THETA_ERROR: f64 = 0.2;
 /// Front bumper past the target by this much: the place is missed, m.
 const PASS_DESTINATION: f64 = 15.0;
-/// Distance that the original keeps between the car's side and the edge, and the tracking error allowed on top, m.
-const EDGE_GAP_LIMIT: f64 = 0.15 + 0.3;
+/// Distance that the original keeps between the car's side and the edge, and the tracking error allowed on top, m: 0.15 and 0.3.
+pub(super) const EDGE_GAP_LIMIT: f64 = 0.45;
+/// Largest distance from the target in the strict profile, m (the original's open-space retry).
+pub(super) const STRICT_DISTANCE: f64 = 0.2;
 /// How long the ego must stand well before it counts, s: rolling on at 0.2 m/s for so long leaves any margin below 0.1 m.
 const SETTLING: f64 = 0.5;
 
@@ -123,12 +125,13 @@ impl PullOverWatch {
         let rest = |part: fn(&Rest) -> f64| at_stop(self.rest.as_ref().map(part));
         let in_junction = at_stop(Some(f64::from(u8::from(self.in_junction))));
         vec![
-            if expected { success.at_least(1.0) } else { success },
+            success.only_if(expected),
             Measure::new("pull_over_s_error", rest(|r| r.s)),
-            Measure::new("pull_over_l_error", rest(|r| r.l.abs())).at_most(MAX_L_ERROR),
-            Measure::new("pull_over_theta_error", rest(|r| r.theta.abs())).at_most(MAX_THETA_ERROR),
-            Measure::new("pull_over_edge_gap", at_stop(self.edge_gap)).at_most(EDGE_GAP_LIMIT),
-            Measure::new("pull_over_in_junction", in_junction).at_most(0.0),
+            Measure::new("pull_over_l_error", rest(|r| r.l.abs())),
+            Measure::new("pull_over_theta_error", rest(|r| r.theta.abs())),
+            Measure::new("pull_over_distance", rest(|r| libm::hypot(r.s, r.l))),
+            Measure::new("pull_over_edge_gap", at_stop(self.edge_gap)),
+            Measure::new("pull_over_in_junction", in_junction),
         ]
     }
 }

@@ -1,9 +1,10 @@
 //! `drivable_area`, `driving_direction`, `lane_keep`: whether the ego stays where cars may be.
 //!
-//! nuPlan's rules. Distances in metres; lanes are those of the map, not those a decider names.
+//! nuPlan's rules; the lane's middle is the line planned along. Distances in metres; lanes are those of the map, not those a decider names.
 
 use super::SAMPLE_PERIOD;
 use super::measure::{Extreme, LongestSpan, Measure};
+use super::plan::Plan;
 use super::view::Sample;
 use std::collections::VecDeque;
 
@@ -11,12 +12,12 @@ use std::collections::VecDeque;
 pub(super) const OFF_ROAD_TOLERANCE: f64 = 0.3;
 
 /// Distance against the lane's direction within the window that fails a run, m (nuPlan's score is 0 from here on).
-const AGAINST_FAILS: f64 = 6.0;
+pub(super) const AGAINST_FAILS: f64 = 6.0;
 
 /// Length of that window, s.
 const AGAINST_WINDOW: f64 = 1.0;
 
-/// How long after a borrow, a lane change or a pull-over ends the way back is still part of it, s: two lane widths
+/// How long after a borrow ends the way back is still part of it, s: two lane widths
 /// at a gentle 1 m/s sideways, and some.
 const RETURN_GRACE: f64 = 5.0;
 
@@ -24,7 +25,7 @@ const RETURN_GRACE: f64 = 5.0;
 const KEEP_OFFSET: f64 = 0.5;
 
 /// How long that may last, s (NAVSIM v2).
-const KEEP_LIMIT: f64 = 2.0;
+pub(super) const KEEP_LIMIT: f64 = 2.0;
 
 /// Grace after a wanted departure from the lane before it counts, s (NAVSIM v2).
 const KEEP_GRACE: f64 = 1.0;
@@ -38,6 +39,8 @@ pub(super) struct RoadWatch {
     window: VecDeque<f64>,
     /// When a label last allowed leaving the lane.
     allowed: Option<f64>,
+    /// When a label last allowed borrowing another one.
+    borrowed: Option<f64>,
     /// Whether the ego has been in a lane of its direction since.
     returned: bool,
     off_centre: LongestSpan,
@@ -50,13 +53,16 @@ impl RoadWatch {
             self.off_road
                 .raise(map.distance_off_road(*corner), sample.time(), None);
         }
-        if sample.plan.is_some_and(super::plan::Plan::leaves_lane) {
+        if sample.plan.is_some_and(Plan::leaves_lane) {
             self.allowed = Some(sample.time());
+        }
+        if sample.plan.is_some_and(Plan::borrows) {
+            self.borrowed = Some(sample.time());
             self.returned = false;
         }
         self.direction(sample);
-        let recent = |grace: f64| self.allowed.is_some_and(|t| sample.time() - t <= grace);
-        let off_centre = sample.at.l.abs() > KEEP_OFFSET && !recent(KEEP_GRACE);
+        let excused = self.allowed.is_some_and(|t| sample.time() - t <= KEEP_GRACE);
+        let off_centre = sample.planned.l.abs() > KEEP_OFFSET && !excused;
         self.off_centre.sample(off_centre, sample.time());
     }
 
@@ -65,7 +71,7 @@ impl RoadWatch {
         if against <= 0.0 {
             self.returned = true;
         }
-        let excused = !self.returned && self.allowed.is_some_and(|t| sample.time() - t <= RETURN_GRACE);
+        let excused = !self.returned && self.borrowed.is_some_and(|t| sample.time() - t <= RETURN_GRACE);
         self.window.push_back(if excused { 0.0 } else { against });
         if self.window.len() as f64 * SAMPLE_PERIOD > AGAINST_WINDOW + SAMPLE_PERIOD / 2.0 {
             self.window.pop_front();
@@ -75,15 +81,9 @@ impl RoadWatch {
 
     pub(super) fn measures(&self) -> Vec<Measure> {
         vec![
-            self.off_road
-                .measure("drivable_area")
-                .at_most(OFF_ROAD_TOLERANCE)
-                .gate(),
-            self.against
-                .measure("driving_direction")
-                .at_most(AGAINST_FAILS)
-                .gate(),
-            self.off_centre.measure("lane_keep").at_most(KEEP_LIMIT),
+            self.off_road.measure("drivable_area"),
+            self.against.measure("driving_direction"),
+            self.off_centre.measure("lane_keep"),
         ]
     }
 }

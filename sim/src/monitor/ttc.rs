@@ -21,7 +21,7 @@ const STEPS: u32 = 30;
 const HORIZON: f64 = 3.0;
 
 /// Smallest good value, s (nuPlan).
-const LIMIT: f64 = 0.95;
+pub(super) const LIMIT: f64 = 0.95;
 
 /// Slower than this the ego runs into nobody, m/s (NAVSIM).
 const STANDS: f64 = 0.005;
@@ -80,7 +80,7 @@ impl TtcWatch {
     }
 
     pub(super) fn measures(&self) -> Vec<Measure> {
-        vec![self.least.measure("ttc").at_least(LIMIT)]
+        vec![self.least.measure("ttc")]
     }
 }
 

@@ -45,6 +45,8 @@ pub(super) struct Sample<'a> {
     pub(super) scenario: &'a Scenario,
     /// The ego's rear axle on the scenario's line.
     pub(super) at: SlPoint,
+    /// The same on the line planned along; on the scenario's where there is no plan.
+    pub(super) planned: SlPoint,
     /// What was decided last.
     pub(super) plan: Option<&'a Plan>,
 }

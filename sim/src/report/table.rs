@@ -86,7 +86,7 @@ pub fn to_table(report: &SweepReport, colour: Colour) -> String {
 
 fn cells(summary: &ScenarioSummary) -> [String; 14] {
     let seed = |seed: Option<u64>| seed.map_or("-".to_owned(), |s| s.to_string());
-    let score = |score: Option<f64>| score.map_or("-".to_owned(), |s| format!("{s:.2}"));
+    let score = |score: Option<f64>| score.map_or("-".to_owned(), |s| format!("{s:.3}"));
     let pull_overs = &summary.pull_overs;
     [
         summary.scenario.clone(),

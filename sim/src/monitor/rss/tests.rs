@@ -1,0 +1,1 @@
+//! Fixtures of ad-rss-lib and worked numbers.
