@@ -68,6 +68,7 @@ fn obstacle(id: u32, line: &Arc<ReferenceLine>) -> Obstacle {
             start: along(7.0, 8.0),
             params: IdmParams::default(),
             lane_change: None,
+            mobil: None,
         },
         2 if id == 7 => Behaviour::Pedestrian {
             from: Vec2::new(s, -9.0),

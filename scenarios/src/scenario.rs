@@ -93,6 +93,13 @@ pub enum Behaviour {
     ConstantSpeed(AlongLine),
     /// Passes through poses at given times, on straight legs; stands before the first and after the last.
     Waypoints(Vec<Waypoint>),
+    /// Passes through poses at given times after something sets it off; until then it stands at the first.
+    Triggered {
+        /// What its time begins with.
+        trigger: Trigger,
+        /// Where it is at times from then on.
+        waypoints: Vec<Waypoint>,
+    },
     /// Follows a line by the Intelligent Driver Model, behind whatever is ahead on it, the ego included.
     Idm {
         /// Where it starts.
@@ -101,6 +108,8 @@ pub enum Behaviour {
         params: IdmParams,
         /// A lateral move it makes on the way.
         lane_change: Option<LateralMove>,
+        /// How it chooses among lanes, if it does.
+        mobil: Option<Mobil>,
     },
     /// Crosses on foot along a straight line.
     Pedestrian {
@@ -208,6 +217,33 @@ impl Default for IdmParams {
             min_gap: 2.0,
             max_acceleration: 1.4,
             comfortable_braking: 2.0,
+        }
+    }
+}
+
+/// Parameters of the lane-change model MOBIL (Kesting, Treiber, Helbing 2007), with the lanes to choose among.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mobil {
+    /// Offsets of the lanes' centres from the line that is driven along, m.
+    pub lanes: Vec<f64>,
+    /// How much the acceleration of the others counts, compared with one's own.
+    pub politeness: f64,
+    /// Gain in acceleration from which on a change is worth its while, m/s².
+    pub threshold: f64,
+    /// Hardest braking that may be asked of the new follower, m/s², positive.
+    pub safe_braking: f64,
+    /// How long a change takes, s.
+    pub duration: f64,
+}
+
+impl Default for Mobil {
+    fn default() -> Self {
+        Self {
+            lanes: Vec::new(),
+            politeness: 0.2,
+            threshold: 0.1,
+            safe_braking: 4.0,
+            duration: 4.0,
         }
     }
 }

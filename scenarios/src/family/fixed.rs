@@ -86,18 +86,19 @@ fn expand_rows(content: &mut Table, template: &Template, draft: &Draft<'_>, para
         let mut expanded = Vec::new();
         for (k, (row, entry)) in rows.iter().zip(entries.iter()).enumerate() {
             let path = format!("{key}[{k}].");
+            let bodies = 1 + usize::from(row.door.is_some());
             let Some(count) = members(row, &path, parameters) else {
                 expanded.push(entry.clone());
-                first += 1;
+                first += bodies;
                 continue;
             };
             for member in 0..count {
                 let numbers = of_member(&path, member, parameters);
-                let s = draft.spots[first + member].s;
-                let name = &draft.obstacles[first + member].name;
+                let place = first + member * bodies;
+                let (s, name) = (draft.spots[place].s, &draft.obstacles[place].name);
                 expanded.push(single(entry, numbers, distance_to(s, draft.ego_s), name));
             }
-            first += count;
+            first += count * bodies;
         }
         *entries = expanded;
     }
@@ -136,7 +137,7 @@ fn of_member<'a>(
 fn single<'a>(row: &Value, numbers: impl Iterator<Item = (&'a str, f64)>, ahead: f64, name: &str) -> Value {
     let mut single = row.as_table().cloned().unwrap_or_default();
     for (key, value) in numbers {
-        single.insert(key.to_owned(), value.into());
+        put(&mut single, key, value);
     }
     single.insert("ahead".to_owned(), ahead.into());
     single.insert("name".to_owned(), name.into());

@@ -1,5 +1,6 @@
 //! From a file and a seed to one concrete scenario: draws the numbers, puts everything on the road.
 
+mod door;
 mod map_objects;
 mod obstacles;
 pub(crate) mod placement;

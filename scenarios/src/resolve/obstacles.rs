@@ -1,15 +1,19 @@
 //! From the obstacles of a file to bodies on the road with behaviours.
 
 use super::Draft;
+use super::door::{self, Hung};
 use super::placement::{self, Spot};
 use super::sampler::Table;
 use crate::route::Road;
-use crate::scenario::{AlongLine, Behaviour, IdmParams, LateralMove, Obstacle, Trigger, Waypoint};
+use crate::scenario::{AlongLine, Behaviour, IdmParams, LateralMove, Mobil, Obstacle, Trigger, Waypoint};
 use crate::schema::ScenarioFile;
-use crate::schema::obstacle::{Common, Idm, LaneChange, LaneChoice, Parked, Pedestrian, Scripted, When};
+use crate::schema::obstacle;
+use crate::schema::obstacle::{
+    Common, Door, Idm, LaneAlong, LaneChange, LaneChoice, Parked, Pedestrian, Scripted, When,
+};
 use crate::validity::Rejection;
 use corridor_decider::frame::{ObstacleId, ObstacleKind};
-use corridor_decider::geometry::{ConvexPolygon, Pose};
+use corridor_decider::geometry::{ConvexPolygon, Pose, angle};
 use corridor_decider::reference_line::{LineQuery, SlPoint};
 use corridor_decider::road::{Neighbour, Side};
 use std::sync::Arc;
@@ -154,9 +158,47 @@ impl<'a, 'd> Placer<'a, 'd> {
                 self.name.clone()
             };
             let pose = spot.pose(self.road);
-            self.push(name, shape, spot, Behaviour::Parked(pose));
+            let width = shape
+                .vertices()
+                .iter()
+                .fold(0.0, |width: f64, v| width.max(v.y.abs()));
+            self.push(name.clone(), shape, spot, Behaviour::Parked(pose));
+            if let Some(door) = &row.door {
+                self.door(door, &name, pose, width, &numbers.table(format_args!("door.")));
+            }
         }
         Ok(())
+    }
+
+    /// The door of a parked car at `pose` that reaches `beside` to its sides: a thin body of its own.
+    fn door(&mut self, door: &Door, car: &str, pose: Pose, beside: f64, table: &Table<'_>) {
+        let hung = Hung {
+            car: pose,
+            side: door.side,
+            hinge: table.number_or("hinge", door.hinge.as_ref(), door::HINGE),
+            beside,
+            length: table.number_or("length", door.length.as_ref(), door::LENGTH),
+        };
+        let waypoints = hung.swing(
+            table.number("angle", &door.angle),
+            table.number("duration", &door.duration),
+        );
+        let closed = waypoints[0].pose;
+        let at = self.road.line.to_frenet(closed.position());
+        let spot = Spot {
+            s: at.s,
+            l: at.l,
+            heading: angle::difference(closed.theta, self.road.line.point(at.s).theta),
+        };
+        let trigger = trigger(&door.when, table);
+        let kind = std::mem::replace(&mut self.kind, ObstacleKind::Other);
+        self.push(
+            format!("{car}, door"),
+            hung.shape(),
+            spot,
+            Behaviour::Triggered { trigger, waypoints },
+        );
+        self.kind = kind;
     }
 
     /// A body that drives along its lane.
@@ -225,16 +267,24 @@ impl<'a, 'd> Placer<'a, 'd> {
             ),
         };
         let road = self.road;
+        let wishes = car.mobil.as_ref();
+        let wishes = wishes.map(|wishes| mobil(wishes, &table.table(format_args!("mobil."))));
         let change = car
             .lane_change
             .as_ref()
             .map(|change| (change, table.table(format_args!("lane_change."))));
+        let lanes = car.mobil.as_ref().and_then(|wishes| wishes.lanes.as_deref());
         self.driving(table, speed, |start| {
             let lane_change = change.map(|(change, numbers)| lateral_move(road, &start, change, &numbers));
+            let mobil = wishes.map(|wishes| Mobil {
+                lanes: lane_centres(&start, lanes),
+                ..wishes
+            });
             Behaviour::Idm {
                 start,
                 params,
                 lane_change,
+                mobil,
             }
         })
     }
@@ -265,7 +315,14 @@ impl<'a, 'd> Placer<'a, 'd> {
             waypoints.push(last);
         }
         let name = self.name.clone();
-        self.push(name, shape, spot, Behaviour::Waypoints(waypoints));
+        let behaviour = match &body.when {
+            Some(when) => Behaviour::Triggered {
+                trigger: trigger(when, table),
+                waypoints,
+            },
+            None => Behaviour::Waypoints(waypoints),
+        };
+        self.push(name, shape, spot, behaviour);
         Ok(())
     }
 
@@ -316,6 +373,33 @@ fn trigger(when: &When, table: &Table<'_>) -> Trigger {
         When::At(time) => Trigger::Time(table.number("when.at", time)),
         When::Within(distance) => Trigger::EgoWithin(table.number("when.within", distance)),
     }
+}
+
+/// How a driver chooses among lanes that are not yet named.
+fn mobil(wishes: &obstacle::Mobil, table: &Table<'_>) -> Mobil {
+    let usual = Mobil::default();
+    Mobil {
+        politeness: table.number_or("politeness", wishes.politeness.as_ref(), usual.politeness),
+        threshold: table.number_or("threshold", wishes.threshold.as_ref(), usual.threshold),
+        safe_braking: table.number_or("safe_braking", wishes.safe_braking.as_ref(), usual.safe_braking),
+        duration: table.number_or("duration", wishes.duration.as_ref(), usual.duration),
+        ..usual
+    }
+}
+
+/// Centres of the lanes beside a driver's line where it starts, m; of all that there are, if none are named.
+fn lane_centres(start: &AlongLine, named: Option<&[LaneAlong]>) -> Vec<f64> {
+    let sample = start.line.sample_at(start.s);
+    let lanes = named.unwrap_or(&[LaneAlong::Own, LaneAlong::Left, LaneAlong::Right]);
+    let edges = lanes.iter().filter_map(|lane| {
+        let lane = match lane {
+            LaneAlong::Own => LaneChoice::Own,
+            LaneAlong::Left => LaneChoice::Left,
+            LaneAlong::Right => LaneChoice::Right,
+        };
+        placement::lane_edges(sample, lane)
+    });
+    edges.map(|(right, left)| f64::midpoint(right, left)).collect()
 }
 
 /// A change of lane, with its end in the frame of the line that the body drives on.

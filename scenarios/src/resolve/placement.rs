@@ -67,7 +67,7 @@ pub(crate) fn extent(shape: &ConvexPolygon, heading: f64) -> [(f64, f64); 2] {
 }
 
 /// The right and left edge of a lane beside the route at one station, m from the line.
-fn lane_edges(sample: &LineSample, lane: LaneChoice) -> Option<(f64, f64)> {
+pub(super) fn lane_edges(sample: &LineSample, lane: LaneChoice) -> Option<(f64, f64)> {
     let (left, right) = sample.lane_width;
     let width = |side, reverse| sample.neighbours[Neighbour { side, reverse }.index()];
     match lane {

@@ -78,6 +78,10 @@ range!(
     Angle, -std::f64::consts::TAU, std::f64::consts::TAU, "an angle in rad"
 );
 range!(
+    /// How far something swings open.
+    Swing, 0.1, 1.5, "an angle in rad"
+);
+range!(
     /// A time in a run; no run is longer than an hour.
     Seconds, 0.0, 3600.0, "a time in s"
 );
@@ -92,6 +96,10 @@ range!(
 range!(
     /// A braking acceleration.
     Braking, -20.0, -0.1, "a negative acceleration in m/s²"
+);
+range!(
+    /// A part of a whole.
+    Share, 0.0, 1.0, "a share"
 );
 range!(
     /// How many of a row.

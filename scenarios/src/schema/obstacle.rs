@@ -5,10 +5,12 @@
 //! flattened structs lose the place as well.
 
 use super::number::{
-    Acceleration, Angle, Count, Duration, Length, Metres, MovingSpeed, Number, Seconds, Size, Speed,
+    Acceleration, Angle, Count, Duration, Length, Metres, MovingSpeed, Number, Seconds, Share, Size, Speed,
+    Swing,
 };
 use corridor_decider::frame::ObstacleKind;
 use corridor_decider::geometry::{ConvexPolygon, Vec2};
+use corridor_decider::road::Side;
 use serde::Deserialize;
 
 /// Which lane a place refers to, seen from the ego's lane at that station.
@@ -114,6 +116,8 @@ obstacle!(
         count: Option<Number<Count>>,
         /// Clear distance from each to the next, m; drawn anew for each.
         spacing: Option<Number<Length>>,
+        /// A door that someone opens.
+        door: Option<Door>,
     }
 );
 obstacle!(
@@ -140,6 +144,8 @@ obstacle!(
         comfortable_braking: Option<Number<Acceleration>>,
         /// A change of lane on the way.
         lane_change: Option<LaneChange>,
+        /// Changes lanes where it gets on better.
+        mobil: Option<Mobil>,
     }
 );
 obstacle!(
@@ -149,6 +155,8 @@ obstacle!(
         heading: Option<Number<Angle>>,
         /// Where it goes on to, by ascending time.
         waypoints: Vec<Waypoint>,
+        /// What its timetable begins with; the start of the run when absent.
+        when: Option<When>,
     }
 );
 obstacle!(
@@ -185,6 +193,52 @@ pub struct LaneChange {
     pub duration: Number<Duration>,
     /// What sets it off.
     pub when: When,
+}
+
+/// The door of a parked car, hinged at its front end.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Door {
+    /// On which side of the car.
+    pub side: Side,
+    /// Length instead of the usual one, m.
+    pub length: Option<Number<Size>>,
+    /// Place of the hinge ahead of the car's centre instead of the usual one, m.
+    pub hinge: Option<Number<Metres>>,
+    /// How far it opens, rad.
+    pub angle: Number<Swing>,
+    /// How long opening takes, s.
+    pub duration: Number<Duration>,
+    /// What opens it.
+    pub when: When,
+}
+
+/// A lane of the same direction that a driver may choose, seen from that of the line it drives along.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LaneAlong {
+    /// The line's own.
+    Own,
+    /// The next to the left.
+    Left,
+    /// The next to the right.
+    Right,
+}
+
+/// Changes of lane by the model MOBIL.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mobil {
+    /// The lanes to choose among; all that there are at its start when absent.
+    pub lanes: Option<Vec<LaneAlong>>,
+    /// How much the acceleration of the others counts, compared with its own.
+    pub politeness: Option<Number<Share>>,
+    /// Gain in acceleration from which on it changes, m/s².
+    pub threshold: Option<Number<Acceleration>>,
+    /// Hardest braking that it asks of its new follower, m/s², positive.
+    pub safe_braking: Option<Number<Acceleration>>,
+    /// How long a change takes, s.
+    pub duration: Option<Number<Duration>>,
 }
 
 /// A place to be in at a time.

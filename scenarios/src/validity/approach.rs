@@ -5,15 +5,14 @@
 //! `(v − u)² / 2|a| + v · reaction + margin`, with `u` its own speed along the road; one beside the ego must not
 //! come into the strip at all, and one behind must be slower or able to brake.
 
-use super::footprint::{FrenetBox, project_near};
+use super::course::Course;
+use super::footprint::FrenetBox;
 use super::{Rejection, Scene};
-use crate::scenario::{Behaviour, Trigger};
-use corridor_decider::geometry::Vec2;
+use crate::scenario::Behaviour;
 use corridor_decider::reference_line::SlPoint;
-use std::sync::Arc;
 
 /// Time step, s: a planning period.
-const STEP: f64 = 0.1;
+pub(super) const STEP: f64 = 0.1;
 
 /// How far ahead in time things are followed, s: what comes later meets an ego that has long reacted.
 const HORIZON: f64 = 30.0;
@@ -108,7 +107,7 @@ fn judge(
 }
 
 /// The ego on its way, were the road free.
-struct Ego<'a> {
+pub(super) struct Ego<'a> {
     scene: &'a Scene<'a>,
     time: f64,
     travelled: f64,
@@ -148,169 +147,10 @@ impl<'a> Ego<'a> {
         self.time > 0.0 && body.s.1 <= self.rear()
     }
 
-    fn place(&self) -> SlPoint {
+    pub(super) fn place(&self) -> SlPoint {
         SlPoint {
             s: self.scene.draft.ego_s + self.travelled,
             l: self.scene.draft.ego_l,
         }
-    }
-}
-
-/// Where an obstacle goes, in the frame of the route's line.
-struct Course<'a> {
-    start: FrenetBox,
-    centre: SlPoint,
-    motion: Motion<'a>,
-    /// When it was set off.
-    since: Option<f64>,
-}
-
-enum Motion<'a> {
-    Stands,
-    /// Along the line at this speed; then perhaps across, to an offset, in a time.
-    Drives {
-        speed: f64,
-        across: Option<(&'a Trigger, f64, f64)>,
-    },
-    /// On straight legs: (time, place).
-    Legs(Vec<(f64, SlPoint)>),
-    /// On foot, to a place, at a speed.
-    Walks {
-        trigger: &'a Trigger,
-        to: SlPoint,
-        speed: f64,
-    },
-}
-
-impl<'a> Course<'a> {
-    fn new(scene: &'a Scene<'a>, k: usize) -> Self {
-        let (obstacle, spot, line) = (&scene.draft.obstacles[k], scene.draft.spots[k], &scene.road.line);
-        let place = |point: Vec2| project_near(line, point, spot.s);
-        // Oncoming traffic is on a line of its own, which runs against the route's.
-        let along = |start: &crate::scenario::AlongLine| {
-            if Arc::ptr_eq(&start.line, line) {
-                start.speed
-            } else {
-                -start.speed
-            }
-        };
-        let motion = match &obstacle.behaviour {
-            Behaviour::Parked(_) => Motion::Stands,
-            Behaviour::ConstantSpeed(start) => Motion::Drives {
-                speed: along(start),
-                across: None,
-            },
-            Behaviour::Idm {
-                start, lane_change, ..
-            } => Motion::Drives {
-                speed: along(start),
-                across: lane_change.as_ref().map(|m| {
-                    let sign = if along(start) < 0.0 { -1.0 } else { 1.0 };
-                    (&m.trigger, sign * (m.to_l - start.l), m.duration)
-                }),
-            },
-            Behaviour::Waypoints(points) => {
-                Motion::Legs(points.iter().map(|p| (p.t, place(p.pose.position()))).collect())
-            }
-            Behaviour::Recorded { states, .. } => {
-                Motion::Legs(states.iter().map(|p| (p.t, place(p.pose.position()))).collect())
-            }
-            Behaviour::Pedestrian {
-                to, speed, trigger, ..
-            } => Motion::Walks {
-                trigger,
-                to: place(*to),
-                speed: *speed,
-            },
-        };
-        Self {
-            start: scene.boxes[k],
-            centre: SlPoint { s: spot.s, l: spot.l },
-            motion,
-            since: None,
-        }
-    }
-
-    fn stands(&self) -> bool {
-        matches!(self.motion, Motion::Stands)
-    }
-
-    /// Speed along the line in the step that led to `now`; at the start, that of the motion.
-    fn speed_along(&self, before: Option<FrenetBox>, now: &FrenetBox) -> f64 {
-        match (&self.motion, before) {
-            (Motion::Drives { speed, .. }, _) => *speed,
-            (_, Some(before)) => (now.s.0 - before.s.0) / STEP,
-            (_, None) => 0.0,
-        }
-    }
-
-    /// The ground covered at `time`, with the ego where it then is.
-    fn at(&mut self, time: f64, ego: &Ego<'_>) -> FrenetBox {
-        if self.since.is_none() && self.sets_off(time, ego) {
-            self.since = Some(time);
-        }
-        let under_way = self.since.map_or(0.0, |since| time - since);
-        let centre = self.centre;
-        let (ds, dl) = match &self.motion {
-            Motion::Stands => (0.0, 0.0),
-            Motion::Drives { speed, across } => {
-                let share = |duration: f64| (under_way / duration).clamp(0.0, 1.0);
-                (
-                    speed * time,
-                    across.map_or(0.0, |(_, to, duration)| to * share(duration)),
-                )
-            }
-            Motion::Legs(points) => {
-                let now = on_legs(points, time);
-                (now.s - centre.s, now.l - centre.l)
-            }
-            Motion::Walks { to, speed, .. } => {
-                let (ds, dl) = (to.s - centre.s, to.l - centre.l);
-                let length = (ds * ds + dl * dl).sqrt().max(f64::MIN_POSITIVE);
-                let share = (under_way * speed / length).clamp(0.0, 1.0);
-                (ds * share, dl * share)
-            }
-        };
-        self.start.moved(ds, dl)
-    }
-
-    /// Whether what the obstacle waits for is there.
-    fn sets_off(&self, time: f64, ego: &Ego<'_>) -> bool {
-        match &self.motion {
-            Motion::Stands | Motion::Legs(_) | Motion::Drives { across: None, .. } => false,
-            Motion::Walks { trigger, .. } => fires(trigger, time, self.centre, ego),
-            Motion::Drives {
-                speed,
-                across: Some((trigger, ..)),
-            } => {
-                let s = self.centre.s + speed * time;
-                fires(trigger, time, SlPoint { s, ..self.centre }, ego)
-            }
-        }
-    }
-}
-
-/// Whether `trigger` fires now for something at `place`.
-fn fires(trigger: &Trigger, time: f64, place: SlPoint, ego: &Ego<'_>) -> bool {
-    match trigger {
-        Trigger::Time(at) => time >= *at,
-        Trigger::EgoWithin(distance) => {
-            let (ds, dl) = (place.s - ego.place().s, place.l - ego.place().l);
-            (ds * ds + dl * dl).sqrt() <= *distance
-        }
-    }
-}
-
-/// The place at `time` on straight legs; before the first and after the last it stands.
-fn on_legs(points: &[(f64, SlPoint)], time: f64) -> SlPoint {
-    let after = points.partition_point(|(t, _)| *t <= time);
-    let (Some(a), Some(b)) = (points.get(after.wrapping_sub(1)), points.get(after)) else {
-        let end = if after == 0 { points.first() } else { points.last() };
-        return end.map_or(SlPoint { s: 0.0, l: 0.0 }, |(_, place)| *place);
-    };
-    let share = (time - a.0) / (b.0 - a.0);
-    SlPoint {
-        s: a.1.s + (b.1.s - a.1.s) * share,
-        l: a.1.l + (b.1.l - a.1.l) * share,
     }
 }

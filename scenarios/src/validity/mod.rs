@@ -5,6 +5,7 @@
 //! short to brake, counts as impossible.
 
 mod approach;
+mod course;
 mod footprint;
 pub(crate) mod kerb;
 pub(crate) mod passage;

@@ -5,6 +5,7 @@ use super::Moment;
 use super::along_line::LineFollower;
 use super::lateral_move::Manoeuvre;
 use super::leader::{Body, Leader, leader_of};
+use super::mobil::LaneChooser;
 use corridor_scenarios::scenario::{AlongLine, IdmParams, LateralMove};
 
 /// Hardest braking of any driver, m/s²: dry road.
@@ -19,22 +20,31 @@ pub(super) struct IdmDriver {
     pub(super) follower: LineFollower,
     params: IdmParams,
     manoeuvre: Option<Manoeuvre>,
+    /// How it chooses among lanes, if it does.
+    chooser: Option<LaneChooser>,
     /// Acceleration until the next look ahead, m/s².
     acceleration: f64,
 }
 
 impl IdmDriver {
-    pub(super) fn new(start: &AlongLine, params: IdmParams, lane_change: Option<LateralMove>) -> Self {
+    pub(super) fn new(
+        start: &AlongLine,
+        params: IdmParams,
+        lane_change: Option<LateralMove>,
+        chooser: Option<LaneChooser>,
+    ) -> Self {
         Self {
             follower: LineFollower::new(start),
             params,
             manoeuvre: lane_change.map(Manoeuvre::new),
+            chooser,
             acceleration: 0.0,
         }
     }
 
-    /// Looks at all bodies, its own at `place` left out, and chooses an acceleration.
-    pub(super) fn look(&mut self, place: usize, bodies: &[Body]) {
+    /// Looks at all bodies, its own at `place` left out, and chooses an acceleration, and perhaps a lane.
+    pub(super) fn look(&mut self, place: usize, bodies: &[Body], time: f64) {
+        self.choose_lane(place, bodies, time);
         let target = self.manoeuvre.as_ref().and_then(Manoeuvre::target);
         let l = self.follower.l;
         let to = target.unwrap_or(l);
@@ -45,6 +55,27 @@ impl IdmDriver {
             .map(|(_, body)| body);
         let leader = leader_of(&self.follower, &bodies[place], (l.min(to), l.max(to)), others);
         self.acceleration = acceleration(&self.params, self.follower.speed, leader);
+    }
+
+    /// Where it is going, sideways: a lane that it has chosen, m from its line.
+    pub(super) fn signal(&self) -> Option<f64> {
+        self.chooser.as_ref()?;
+        self.manoeuvre.as_ref().map(Manoeuvre::end)
+    }
+
+    fn choose_lane(&mut self, place: usize, bodies: &[Body], time: f64) {
+        let Some(chooser) = &mut self.chooser else {
+            return;
+        };
+        if self.manoeuvre.as_ref().is_some_and(Manoeuvre::is_over) {
+            self.manoeuvre = None;
+            chooser.rest(time);
+        }
+        // Who was held up at the first moment of a change looks again.
+        if self.manoeuvre.as_ref().is_none_or(|m| m.target().is_none()) {
+            let change = chooser.look(&self.follower, &self.params, (place, bodies), time);
+            self.manoeuvre = change.map(Manoeuvre::new);
+        }
     }
 
     pub(super) fn advance(&mut self, moment: &Moment, dt: f64) {

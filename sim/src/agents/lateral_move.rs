@@ -35,9 +35,20 @@ impl Manoeuvre {
         }
     }
 
-    /// Offset that it leads to.
+    /// Offset at its end, begun or not.
+    pub(super) fn end(&self) -> f64 {
+        self.plan.to_l
+    }
+
+    /// Offset that it leads to, once it has begun.
     pub(super) fn target(&self) -> Option<f64> {
         self.under_way.map(|_| self.plan.to_l)
+    }
+
+    /// Whether it is done.
+    pub(super) fn is_over(&self) -> bool {
+        self.under_way
+            .is_some_and(|(_, clock)| clock >= self.plan.duration)
     }
 
     /// Sets the drift of `follower` for the coming step.

@@ -1,4 +1,5 @@
-//! Who drives ahead: the nearest body whose outline reaches into the strip that a follower is about to sweep.
+//! Who drives ahead: the nearest body whose outline reaches into the strip that a follower is about to sweep. And who
+//! comes behind in a strip.
 
 use super::along_line::LineFollower;
 use crate::world::BodyPose;
@@ -24,10 +25,13 @@ pub(super) struct Body {
     pub(super) velocity: Vec2,
     /// Whether it can ever move.
     pub(super) moves: bool,
+    /// Offset of the lane that it is about to change to, m from its line: its turn signal.
+    pub(super) signal: Option<f64>,
     /// Its outline in its own frame.
     vertices: Vec<Vec2>,
-    /// How far it reaches ahead of its centre, to either side of it, and anywhere, m.
+    /// How far it reaches ahead of its centre and behind it, to either side of it, and anywhere, m.
     front: f64,
+    back: f64,
     half_width: f64,
     reach: f64,
 }
@@ -48,11 +52,18 @@ impl Body {
             pose: at.pose,
             velocity: at.velocity,
             moves,
+            signal: None,
             vertices: shape.vertices().to_vec(),
             front: largest(|v| v.x),
+            back: largest(|v| -v.x),
             half_width: largest(|v| v.y.abs()),
             reach: largest(Vec2::norm),
         }
+    }
+
+    /// Length of its outline, m.
+    pub(super) fn length(&self) -> f64 {
+        self.front + self.back
     }
 
     pub(super) fn place(&mut self, pose: Pose, velocity: Vec2) {
@@ -94,9 +105,69 @@ pub(super) fn leader_of<'a>(
     nearest
 }
 
+/// Who is before and behind a driver in a lane, both as `leader_of` measures them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Neighbours {
+    pub(super) ahead: Option<Leader>,
+    pub(super) behind: Option<Leader>,
+}
+
+/// The nearest of `others` before and behind `follower`, were it at the offset `l`. Whoever signals for there counts as
+/// being there; what cannot move follows nobody, unless it is beside.
+pub(super) fn neighbours_at<'a>(
+    follower: &LineFollower,
+    own: &Body,
+    l: f64,
+    others: impl Iterator<Item = &'a Body>,
+) -> Neighbours {
+    let room = own.half_width + SIDE_ROOM;
+    let mut neighbours = Neighbours::default();
+    for other in others {
+        let reach = LOOK_AHEAD + other.reach;
+        if (other.pose.position() - own.pose.position()).norm_squared() > reach * reach {
+            continue;
+        }
+        let Some(seen) = seen_on_line(
+            &follower.line,
+            (follower.s - LOOK_AHEAD, follower.s + LOOK_AHEAD),
+            other,
+        ) else {
+            continue;
+        };
+        let goes_to = other.signal.unwrap_or(f64::midpoint(seen.right, seen.left));
+        let right = seen.right.min(goes_to - other.half_width);
+        let left = seen.left.max(goes_to + other.half_width);
+        if left <= l - room || right >= l + room {
+            continue;
+        }
+        let is_ahead = seen.centre > follower.s;
+        let gap = if is_ahead {
+            seen.tail - (follower.s + own.front)
+        } else {
+            follower.s - own.back - seen.nose
+        };
+        let place = if is_ahead {
+            &mut neighbours.ahead
+        } else {
+            &mut neighbours.behind
+        };
+        let follows = is_ahead || other.moves || gap < 0.0;
+        if follows && place.is_none_or(|best| gap < best.gap) {
+            *place = Some(Leader {
+                gap,
+                speed: seen.speed,
+            });
+        }
+    }
+    neighbours
+}
+
 /// A body in the Frenet frame of a line.
 struct Seen {
-    /// Its smallest station, m.
+    /// Station of its centre, m.
+    centre: f64,
+    /// Its largest and its smallest station, m.
+    nose: f64,
     tail: f64,
     /// Its smallest and its largest offset, m.
     right: f64,
@@ -107,9 +178,14 @@ struct Seen {
 
 /// Projects `body` on the part of `line` within sight of `from`; `None` when it is behind or beside no part of it.
 fn seen_from_line(line: &ReferenceLine, from: f64, body: &Body) -> Option<Seen> {
+    seen_on_line(line, (from, from + LOOK_AHEAD), body).filter(|seen| seen.centre > from)
+}
+
+/// Projects `body` on the part of `line` between two stations.
+fn seen_on_line(line: &ReferenceLine, (from, to): (f64, f64), body: &Body) -> Option<Seen> {
     let samples = line.samples();
     let first = samples.partition_point(|p| p.s < from).saturating_sub(1);
-    let last = samples.partition_point(|p| p.s <= from + LOOK_AHEAD);
+    let last = samples.partition_point(|p| p.s <= to);
     let near = nearest_sample(samples.get(first..last)?, body.pose.position())?;
     let (sin, cos) = angle::sin_cos(near.point.theta);
     let axis = Vec2::new(cos, sin);
@@ -120,10 +196,9 @@ fn seen_from_line(line: &ReferenceLine, from: f64, body: &Body) -> Option<Seen> 
         let stretch = (1.0 - near.point.kappa * y).max(0.1);
         (near.s + x / stretch, y - near.point.kappa * x * x / 2.0)
     };
-    if frenet(body.pose.position()).0 <= from {
-        return None;
-    }
     let mut seen = Seen {
+        centre: frenet(body.pose.position()).0,
+        nose: f64::NEG_INFINITY,
         tail: f64::INFINITY,
         right: f64::INFINITY,
         left: f64::NEG_INFINITY,
@@ -131,6 +206,7 @@ fn seen_from_line(line: &ReferenceLine, from: f64, body: &Body) -> Option<Seen> 
     };
     for vertex in &body.vertices {
         let (s, l) = frenet(body.pose.to_world(*vertex));
+        seen.nose = seen.nose.max(s);
         seen.tail = seen.tail.min(s);
         seen.right = seen.right.min(l);
         seen.left = seen.left.max(l);

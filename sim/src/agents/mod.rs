@@ -7,6 +7,7 @@ mod along_line;
 mod idm;
 mod lateral_move;
 mod leader;
+mod mobil;
 mod pedestrian;
 mod recorded;
 mod waypoints;
@@ -20,6 +21,7 @@ use corridor_scenarios::Scenario;
 use corridor_scenarios::scenario::{Behaviour, Obstacle, Trigger};
 use idm::IdmDriver;
 use leader::Body;
+use mobil::LaneChooser;
 use pedestrian::Walker;
 use recorded::Recording;
 use waypoints::Track;
@@ -82,7 +84,10 @@ pub fn can_move(obstacle: &Obstacle) -> bool {
     match &obstacle.behaviour {
         Behaviour::Parked(_) => false,
         Behaviour::ConstantSpeed(along) => along.speed != 0.0,
-        Behaviour::Waypoints(points) => points.windows(2).any(|pair| pair[0].pose != pair[1].pose),
+        Behaviour::Waypoints(points)
+        | Behaviour::Triggered {
+            waypoints: points, ..
+        } => points.windows(2).any(|pair| pair[0].pose != pair[1].pose),
         Behaviour::Pedestrian { from, to, speed, .. } => from != to && *speed > 0.0,
         Behaviour::Idm { .. } | Behaviour::Recorded { .. } => true,
     }
@@ -93,12 +98,19 @@ impl Actor {
         match behaviour {
             Behaviour::Parked(pose) => Self::Parked(*pose),
             Behaviour::ConstantSpeed(start) => Self::Along(LineFollower::new(start)),
-            Behaviour::Waypoints(points) => Self::Waypoints(Track::new(points)),
+            Behaviour::Waypoints(points) => Self::Waypoints(Track::new(points, None)),
+            Behaviour::Triggered { trigger, waypoints } => {
+                Self::Waypoints(Track::new(waypoints, Some(*trigger)))
+            }
             Behaviour::Idm {
                 start,
                 params,
                 lane_change,
-            } => Self::Idm(Box::new(IdmDriver::new(start, *params, *lane_change))),
+                mobil,
+            } => {
+                let chooser = mobil.clone().map(LaneChooser::new);
+                Self::Idm(Box::new(IdmDriver::new(start, *params, *lane_change, chooser)))
+            }
             Behaviour::Pedestrian {
                 from,
                 to,
@@ -113,7 +125,7 @@ impl Actor {
         match self {
             Self::Parked(_) => {}
             Self::Along(follower) => follower.advance(dt),
-            Self::Waypoints(track) => track.advance(moment.time),
+            Self::Waypoints(track) => track.advance(moment),
             Self::Idm(driver) => driver.advance(moment, dt),
             Self::Pedestrian(walker) => walker.advance(moment, dt),
             Self::Recorded(recording) => recording.advance(moment.time),
@@ -172,7 +184,7 @@ impl Agents {
             body.place(ego.pose, ego.pose.forward() * ego.v);
         }
         if self.is_time_to_look(dt) {
-            self.look_ahead();
+            self.look_ahead(dt);
         }
         self.steps += 1;
         let moment = Moment {
@@ -248,10 +260,17 @@ impl Agents {
     }
 
     /// Lets every driver look at all bodies as they are before the step, so that their order plays no role.
-    fn look_ahead(&mut self) {
+    fn look_ahead(&mut self, dt: f64) {
+        let time = f64::from(self.steps) * dt;
         for (place, actor) in self.actors.iter_mut().enumerate() {
             if let Actor::Idm(driver) = actor {
-                driver.look(place, &self.bodies);
+                driver.look(place, &self.bodies, time);
+            }
+        }
+        // Whoever sets out for another lane tells so, and the others see it at their next look.
+        for (actor, body) in self.actors.iter().zip(&mut self.bodies) {
+            if let Actor::Idm(driver) = actor {
+                body.signal = driver.signal();
             }
         }
     }

@@ -6,7 +6,7 @@ use super::*;
 use crate::testing::{along, line, road, scenario};
 use corridor_decider::geometry::angle;
 use corridor_decider::reference_line::{LineQuery, ReferenceLine};
-use corridor_scenarios::scenario::{IdmParams, LateralMove, Waypoint};
+use corridor_scenarios::scenario::{IdmParams, LateralMove, Mobil, Waypoint};
 use std::sync::Arc;
 
 const DT: f64 = 0.01;
@@ -39,6 +39,7 @@ fn idm(line: &Arc<ReferenceLine>, s: f64, l: f64, speed: f64) -> Behaviour {
         start: along(line, s, l, speed),
         params: IdmParams::default(),
         lane_change: None,
+        mobil: None,
     }
 }
 
@@ -54,6 +55,7 @@ fn cut_in(line: &Arc<ReferenceLine>, speed: f64, trigger: Trigger) -> Behaviour 
             to_l: 0.0,
             duration: 4.0,
         }),
+        mobil: None,
     }
 }
 
@@ -340,4 +342,106 @@ fn who_waits_is_predicted_to_wait_and_who_is_parked_not_at_all() {
     );
     assert!(agents.moves(ObstacleId(0)) && !agents.moves(ObstacleId(1)));
     assert!(agents.predict(ObstacleId(1)).is_empty() && agents.predict(ObstacleId(7)).is_empty());
+}
+
+/// A driver who wants 14 m/s and may choose among these lanes.
+fn choosy(line: &Arc<ReferenceLine>, s: f64, l: f64, speed: f64, lanes: &[f64]) -> Behaviour {
+    Behaviour::Idm {
+        start: along(line, s, l, speed),
+        params: IdmParams::default(),
+        lane_change: None,
+        mobil: Some(Mobil {
+            lanes: lanes.to_vec(),
+            ..Mobil::default()
+        }),
+    }
+}
+
+#[test]
+fn a_slow_leader_is_overtaken_where_there_is_a_free_lane() {
+    let line = straight();
+    let slow = || Behaviour::ConstantSpeed(along(&line, 60.0, 0.0, 5.0));
+    let mut free = agents(vec![slow(), choosy(&line, 10.0, 0.0, 12.0, &[0.0, 3.5])]);
+    let history = run(&mut free, &nowhere(), 25.0);
+    let end = history.last().unwrap();
+    assert!(end[1].pose.x > end[0].pose.x + 10.0, "it has passed: {end:?}");
+    assert!(
+        history
+            .iter()
+            .all(|all| all[1].pose.y <= 3.5 + 1e-9 && all[1].velocity.x > 4.0)
+    );
+    assert!(
+        history.iter().any(|all| (all[1].pose.y - 3.5).abs() < 1e-9),
+        "in the middle of the lane"
+    );
+
+    // Where another column fills that lane it stays behind.
+    let column = |k: f64| Behaviour::ConstantSpeed(along(&line, 12.0 * k - 100.0, 3.5, 5.0));
+    let mut there = vec![slow(), choosy(&line, 10.0, 0.0, 12.0, &[0.0, 3.5])];
+    there.extend((0..25_u8).map(|k| column(f64::from(k))));
+    let end = last(&mut agents(there), &nowhere(), 20.0);
+    assert!(
+        end[1].pose.y.abs() < 1e-9 && end[1].pose.x < end[0].pose.x,
+        "{:?}",
+        end[1]
+    );
+    assert!((end[1].velocity.x - 5.0).abs() < 0.5);
+}
+
+#[test]
+fn nobody_changes_into_the_way_of_the_ego() {
+    let line = straight();
+    let slow = Behaviour::ConstantSpeed(along(&line, 60.0, 0.0, 5.0));
+    let mut agents = agents(vec![slow, choosy(&line, 20.0, 0.0, 12.0, &[0.0, 3.5])]);
+    // The ego comes up fast from behind in the other lane, and passes.
+    let mut crossed = None;
+    for k in 0..1200 {
+        let x = -10.0 + 20.0 * f64::from(k) * DT;
+        let now = agents.advance(&ego_at(x, 3.5, 20.0), DT)[1];
+        if crossed.is_none() && now.pose.y > 0.9 {
+            crossed = Some((x, now.pose.x));
+        }
+    }
+    let (ego, car) = crossed.expect("it changes in the end");
+    assert!(ego > car + 3.0, "behind the ego: {ego} {car}");
+}
+
+#[test]
+fn two_who_want_the_same_gap_do_not_take_it_together() {
+    let line = straight();
+    let slow = |l| Behaviour::ConstantSpeed(along(&line, 60.0, l, 5.0));
+    for offset in [0.0, 1.5, 3.0, -3.0] {
+        let lanes = [3.5, 0.0, -3.5];
+        let mut agents = agents(vec![
+            slow(3.5),
+            slow(-3.5),
+            choosy(&line, 10.0, 3.5, 12.0, &lanes),
+            choosy(&line, 10.0 + offset, -3.5, 12.0, &lanes),
+        ]);
+        let mut reached = 0;
+        for all in run(&mut agents, &nowhere(), 15.0) {
+            let (a, b) = (all[2].pose, all[3].pose);
+            let apart = (a.x - b.x).abs() > 4.6 || (a.y - b.y).abs() > 1.9;
+            assert!(apart, "{a:?} {b:?}");
+            reached += usize::from(a.y.abs() < 0.5 || b.y.abs() < 0.5);
+        }
+        assert!(reached > 0, "one of them changes");
+    }
+}
+
+#[test]
+fn a_triggered_track_begins_when_it_is_set_off() {
+    let at = |t, x| Waypoint {
+        t,
+        pose: Pose::new(x, 3.0, 0.0),
+    };
+    let mut agents = agents(vec![Behaviour::Triggered {
+        trigger: Trigger::EgoWithin(20.0),
+        waypoints: vec![at(0.0, 50.0), at(2.0, 54.0)],
+    }]);
+    assert_eq!(last(&mut agents, &nowhere(), 5.0)[0].pose.x, 50.0);
+    let history = run(&mut agents, &ego_at(31.0, 0.0, 8.0), 3.0);
+    assert!((history[100][0].pose.x - 52.0).abs() < 1e-9 && (history[100][0].velocity.x - 2.0).abs() < 1e-9);
+    let end = history.last().unwrap()[0];
+    assert!(end.pose.x == 54.0 && end.velocity == Vec2::zeros());
 }
