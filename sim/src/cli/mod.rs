@@ -5,6 +5,7 @@
 
 mod catalog;
 mod export;
+mod faults;
 mod import;
 mod map;
 mod output;
@@ -31,6 +32,8 @@ enum Verb {
     Run(run::Run),
     /// Run many seeds of many scenarios and report.
     Sweep(sweep::Sweep),
+    /// Plant faults one by one and see whether each is caught.
+    Faults(faults::Faults),
     /// Run a trace again and compare every state.
     Replay(trace::Replay),
     /// List the catalog.
@@ -59,6 +62,7 @@ pub(crate) fn main() -> ExitCode {
     let gate = match &arguments.verb {
         Verb::Run(run) => run.execute(),
         Verb::Sweep(sweep) => sweep.execute(),
+        Verb::Faults(faults) => faults.execute(),
         Verb::Replay(replay) => replay.execute(),
         Verb::List(list) => list.execute(),
         Verb::Validate(validate) => validate.execute(),

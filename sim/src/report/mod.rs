@@ -4,6 +4,7 @@
 
 mod comparison;
 mod digest;
+mod faults;
 mod grid;
 mod json;
 mod junit;
@@ -12,6 +13,7 @@ mod table;
 mod times;
 
 pub use comparison::{Comparison, comparison_to_json, comparison_to_table};
+pub use faults::{findings_to_json, findings_to_table};
 pub use json::to_json;
 pub use junit::to_junit;
 pub use summary::{PullOvers, ScenarioSummary};

@@ -1,6 +1,7 @@
 //! Sweeps: many runs at once, and what can be said of them.
 
 mod compare;
+pub mod hunt;
 pub mod paired;
 mod plan;
 pub mod signed_rank;
@@ -132,7 +133,11 @@ fn replay_command(given: &str, seed: u64, overrides: &[String]) -> String {
     let mut command = format!("corridor run {given} --seed {seed}");
     for setting in overrides {
         command.push_str(" --set ");
-        command.push_str(setting);
+        if setting.contains(['"', '{', '[', ' ']) {
+            command.push_str(&format!("'{setting}'"));
+        } else {
+            command.push_str(setting);
+        }
     }
     command
 }
