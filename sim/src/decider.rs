@@ -18,8 +18,8 @@ use std::any::Any;
 use std::borrow::Cow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Steps that an answer may take. The most that any planner took in 2000 runs of the catalog is given by a test of the
-/// margin; a hang takes less than a tenth of a second to be found.
+/// Steps that an answer may take: more than twenty times as many as any sound one was seen to, which a test holds, and so
+/// few that to go on for ever takes less than a second.
 const STEP_LIMIT: u64 = 1_000_000;
 
 /// Why there is no answer.
@@ -159,4 +159,67 @@ pub(crate) fn said(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     text.or(panic.downcast_ref::<&str>().copied())
         .unwrap_or("no message")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::closed_loop::NoSink;
+    use crate::faults::Fault;
+    use crate::run::{run, run_recorded};
+    use crate::verdict::Ending;
+    use corridor_scenarios::{MapCache, catalog};
+
+    /// The most steps that a planner takes for an answer in a run.
+    fn most_steps(scenario: &str, planner: PlannerKind) -> u64 {
+        let family = catalog::find(scenario).unwrap().load(&MapCache::new()).unwrap();
+        let scenario = family.draw(1).unwrap().scenario;
+        let mut settings = Settings::default();
+        settings.decider.planner = planner;
+        let trace = run_recorded(&family, &scenario, &[], &settings);
+        let mut decider = Decider::new(scenario.vehicle, &settings);
+        let steps = trace.ticks.iter().map(|tick| {
+            let decide = || decider.decide_unfenced(&tick.frame, &mut NoSink);
+            steps::within(u64::MAX, decide).1
+        });
+        steps.max().unwrap()
+    }
+
+    #[test]
+    fn no_sound_answer_comes_near_the_step_limit() {
+        for planner in [PlannerKind::LaneFollow, PlannerKind::Lattice] {
+            for scenario in ["bollards_askew", "parked_row_with_oncoming", "curve_cyclist"] {
+                let most = most_steps(scenario, planner);
+                let wanted = 10..STEP_LIMIT / 20;
+                assert!(wanted.contains(&most), "{planner:?} on {scenario}: {most} steps");
+            }
+        }
+    }
+
+    #[test]
+    fn an_answer_that_takes_for_ever_costs_one_run_and_no_more() {
+        let settings = Settings {
+            fault: Fault::named("answers_never").unwrap(),
+            ..Settings::default()
+        };
+        let scenario = crate::testing::scenario(
+            corridor_decider::geometry::Pose::new(20.0, 0.0, 0.0),
+            8.0,
+            Vec::new(),
+        );
+        let verdict = run(&scenario, &settings);
+        assert_eq!(verdict.ending, Ending::DeciderFailed);
+        assert!(
+            verdict.outcomes.contains(&("step_limit".to_owned(), 1)),
+            "{:?}",
+            verdict.outcomes
+        );
+        assert!(verdict.summary.contains("steps"), "{}", verdict.summary);
+        assert!(
+            run(&scenario, &Settings::default())
+                .outcomes
+                .iter()
+                .all(|(name, _)| name != "step_limit")
+        );
+    }
 }

@@ -19,6 +19,8 @@ mod quirks;
 mod scenario;
 mod spec;
 mod speed;
+#[cfg(test)]
+mod tests;
 mod tracker;
 
 pub use failure::{Failure, Part};
