@@ -24,6 +24,7 @@ pub mod reference_line;
 pub mod road;
 pub mod routing;
 pub mod st_graph;
+pub mod steps;
 pub mod tasks;
 pub mod trajectory;
 pub mod vehicle;

@@ -3,13 +3,14 @@
 use crate::agents::Agents;
 use crate::clock::Clock;
 use crate::decider::Decider;
+use crate::faults::{Following, Planted};
 use crate::monitor::{Monitor, Motion, StepView, Traffic};
 use crate::perception;
 use crate::route::Route;
 use crate::settings::Settings;
 use crate::story::Story;
 use crate::trace::{Controls, TickRecord, TraceError};
-use crate::tracker::{Tracker, TrackerConfig};
+use crate::tracker::TrackerConfig;
 use crate::verdict::Verdict;
 use crate::world::{Fnv, World};
 use corridor_decider::decision::{Decision, TrajectoryPoint};
@@ -55,7 +56,7 @@ pub struct ClosedLoop {
     agents: Agents,
     route: Route,
     decider: Decider,
-    tracker: Tracker,
+    tracker: Following,
     monitor: Monitor,
     story: Story,
     sensor_range: f64,
@@ -66,13 +67,15 @@ impl ClosedLoop {
     /// The loop at the start of `scenario`.
     pub fn new(scenario: &Scenario, settings: &Settings) -> Self {
         let tracking = TrackerConfig::for_car(&scenario.vehicle, &settings.physics.dynamics);
+        let planted = Planted::new(settings.fault);
+        let config = planted.config(&settings.decider);
         Self {
             clock: Clock::new(settings.tick, settings.physics.dt),
             world: World::new(scenario, &settings.physics),
             agents: Agents::new(scenario),
-            route: Route::new(scenario, &settings.decider.lane_follow),
+            route: Route::new(scenario, &config.lane_follow),
             decider: Decider::new(scenario.vehicle, settings),
-            tracker: Tracker::new(scenario.vehicle, tracking),
+            tracker: Following::new(scenario.vehicle, tracking, settings.fault),
             monitor: Monitor::new(scenario).with_rss(settings.rss),
             story: Story::new(scenario),
             sensor_range: perception::SENSOR_RANGE,

@@ -1,6 +1,7 @@
 //! One run from a family and a seed, with or without a trace.
 
 use crate::closed_loop::{ClosedLoop, NoSink, Sink};
+use crate::faults::Planted;
 use crate::route::Route;
 use crate::settings::Settings;
 use crate::trace::{FORMAT, Header, TickRecord, Trace, TraceError, TraceWriter, outline};
@@ -95,6 +96,8 @@ pub fn header(family: &Family, scenario: &Scenario, overrides: &[String], settin
         .chain(&scenario.target_line)
         .cloned()
         .collect();
+    let planted = Planted::new(settings.fault);
+    let config = planted.config(&settings.decider);
     Header {
         format: FORMAT,
         build: env!("CARGO_PKG_VERSION").to_owned(),
@@ -110,9 +113,7 @@ pub fn header(family: &Family, scenario: &Scenario, overrides: &[String], settin
             .map(|obstacle| obstacle.name.clone())
             .collect(),
         lanes: outline::near(scenario.map.lanes(), &driven),
-        lines: Route::new(scenario, &settings.decider.lane_follow)
-            .first_lines()
-            .to_vec(),
+        lines: Route::new(scenario, &config.lane_follow).first_lines().to_vec(),
         tick: settings.tick,
     }
 }

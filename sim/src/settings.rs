@@ -16,7 +16,7 @@ pub struct Settings {
     pub physics: PhysicsConfig,
     /// Planning period, s; a whole number of physics steps.
     pub tick: f64,
-    /// A fault planted between the world and the decider.
+    /// A fault planted on purpose, by its name.
     pub fault: Fault,
     /// Parts that fail for a while.
     pub failures: Vec<Failure>,
@@ -30,7 +30,7 @@ impl Default for Settings {
             decider: Config::default(),
             physics: PhysicsConfig::default(),
             tick: 0.1,
-            fault: Fault::None,
+            fault: Fault::NONE,
             failures: Vec::new(),
             rss: RssProfile::default(),
         }
@@ -216,7 +216,10 @@ mod tests {
                 .quirks
                 .greedy_sides
         );
-        assert_eq!(set("fault=mirrored").unwrap().fault, Fault::Mirrored);
+        assert_eq!(
+            set("fault=mirrored").unwrap().fault,
+            Fault::named("mirrored").unwrap()
+        );
     }
 
     #[test]
@@ -228,5 +231,10 @@ mod tests {
         assert!(message("tick=0.015").contains("whole physics steps"));
         assert!(message("decider.path=3").contains("group"));
         assert!(message("tick.x=3").contains("nothing below it"));
+        let unknown = message("fault=mirored");
+        assert!(
+            unknown.contains("`mirored`") && unknown.contains("none, ") && unknown.contains(", mirrored, "),
+            "{unknown}"
+        );
     }
 }

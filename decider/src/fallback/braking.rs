@@ -3,6 +3,7 @@
 
 use super::speed_profile::{FALLBACK_STEP, filled};
 use crate::st_graph::{SpeedData, SpeedPoint};
+use crate::steps;
 
 /// What a stop may ask of the brakes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,6 +101,7 @@ fn sampled(start: SpeedPoint, phases: &[Phase]) -> SpeedData {
     let duration: f64 = phases.iter().map(ends).sum();
     let mut step = 1.0;
     loop {
+        steps::count();
         let t = step * FALLBACK_STEP;
         let before = points[points.len() - 1];
         if t - FALLBACK_STEP >= duration {

@@ -22,6 +22,7 @@ use super::prediction::{motions_of, projected_speed};
 use crate::frame::{Obstacle, ObstacleId};
 use crate::geometry::frenet::FrenetMotion;
 use crate::piecewise_jerk::Riccati;
+use crate::steps;
 use crate::vehicle::VehicleParams;
 
 /// How far before the stop point stop curves end, m: what the stop filter asks for, and a little more.
@@ -190,6 +191,7 @@ impl<'a> Lattice<'a> {
         let mut laid: Vec<Option<Laid>> = vec![None; self.longitudinal.len()];
         while let Some(pair) = queue.next() {
             sizes.looked_at += 1;
+            steps::count();
             let Some(sampled) = queue.sampled(pair.longitudinal) else {
                 continue;
             };

@@ -5,6 +5,7 @@ use super::probe::Probe;
 use super::task::{Part, TaskError, TaskName};
 use crate::context::Context;
 use crate::decision::TaskReport;
+use crate::steps;
 
 /// The tasks of lane following, in the original's order.
 pub const LANE_FOLLOW: [TaskName; 14] = [
@@ -35,6 +36,7 @@ pub(super) fn run(
     probe: &mut dyn Probe,
 ) -> Result<(), (TaskName, TaskError)> {
     for task in tasks {
+        steps::count();
         let input = task.input(plan);
         probe.begins(*task);
         let result = if probe.fails(Part::Task(*task)) {
@@ -43,6 +45,9 @@ pub(super) fn run(
             task.run()(plan, context)
         };
         probe.ended(*task);
+        if result.is_ok() {
+            probe.hands_on(*task, plan);
+        }
         plan.reports.push(TaskReport {
             task: *task,
             input,

@@ -5,6 +5,7 @@
 
 mod catalog;
 mod export;
+mod faults;
 mod import;
 mod map;
 mod output;
@@ -42,6 +43,8 @@ enum Verb {
     Compare(results::Compare),
     /// Make a failing run small: fewer obstacles, shorter, rounder numbers, the same failure.
     Shrink(shrink::Shrink),
+    /// Plant faults one by one and see whether each is caught.
+    Faults(faults::Faults),
     /// Run a trace again and compare every state.
     Replay(trace::Replay),
     /// List the catalog.
@@ -74,6 +77,7 @@ pub(crate) fn main() -> ExitCode {
         Verb::Report(report) => report.execute(),
         Verb::Compare(compare) => compare.execute(),
         Verb::Shrink(shrink) => shrink.execute(),
+        Verb::Faults(faults) => faults.execute(),
         Verb::Replay(replay) => replay.execute(),
         Verb::List(list) => list.execute(),
         Verb::Validate(validate) => validate.execute(),

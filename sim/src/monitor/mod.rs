@@ -46,6 +46,7 @@ mod view;
 pub use rss::RssProfile;
 pub use view::{Motion, StepView, Traffic};
 
+use crate::decider::NoAnswer;
 use crate::signature::Signature;
 use crate::verdict::{Ending, Metric, Verdict};
 use corridor_decider::decision::Decision;
@@ -189,10 +190,10 @@ impl Monitor {
         self.path_clearance.tick(frame, decision, vehicle);
     }
 
-    /// Takes in that the decider gave no answer at all: it panicked.
-    pub fn decider_failed(&mut self, time: f64, reason: &str) {
+    /// Takes in that the decider gave no answer at all.
+    pub fn decider_failed(&mut self, time: f64, why: &NoAnswer) {
         self.now = time;
-        self.decider.fail(time, reason.to_owned());
+        self.decider.no_answer(time, why);
         self.ending.end(Ending::DeciderFailed);
     }
 

@@ -6,6 +6,7 @@
 mod comparison;
 mod csv;
 mod digest;
+mod faults;
 mod grid;
 mod groups;
 mod histogram;
@@ -21,6 +22,7 @@ pub use comparison::{Comparison, comparison_to_json, comparison_to_table};
 pub use csv::Csv;
 pub use groups::{Example, Group};
 pub use html::to_html;
+pub use faults::{findings_to_json, findings_to_table};
 pub use json::to_json;
 pub use junit::{Junit, Totals};
 pub use summary::{PullOvers, ScenarioSummary};

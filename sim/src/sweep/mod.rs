@@ -7,6 +7,7 @@ pub mod bootstrap;
 mod claim;
 mod compare;
 mod in_order;
+pub mod hunt;
 pub mod paired;
 mod plan;
 pub mod results;
@@ -167,7 +168,11 @@ fn replay_command(given: &str, seed: u64, overrides: &[String]) -> String {
     let mut command = format!("corridor run {given} --seed {seed}");
     for setting in overrides {
         command.push_str(" --set ");
-        command.push_str(setting);
+        if setting.contains(['"', '{', '[', ' ']) {
+            command.push_str(&format!("'{setting}'"));
+        } else {
+            command.push_str(setting);
+        }
     }
     command
 }

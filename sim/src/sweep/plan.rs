@@ -2,8 +2,11 @@
 
 use corridor_scenarios::Family;
 
+/// Seeds of a family that something is likely to be found in, before all the others are looked at.
+const FIRST_ROUNDS: usize = 8;
+
 /// One run: a family by its place in the plan, and a seed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Job {
     /// Its place in the plan.
     pub index: u64,
@@ -114,6 +117,40 @@ impl Plan {
             family: self.random[place(family)],
             seed: self.first_seed.wrapping_add(turn),
         }
+    }
+
+    /// At most `count` runs for the search for something: first some seeds of each of the `first` families, from the seed
+    /// named with it on, then all families in turn, from `seed` on. None twice; families without random numbers once.
+    pub(super) fn in_turn(&self, first: &[(&str, u64)], seed: u64, count: usize) -> Vec<Job> {
+        let place = |name: &str| self.families().position(|family| family.name() == name);
+        let first = first
+            .iter()
+            .filter_map(|(name, seed)| Some((place(name)?, *seed)));
+        let first: Vec<(usize, u64)> = first.collect();
+        let all: Vec<(usize, u64)> = (0..self.families.len()).map(|family| (family, seed)).collect();
+        let rounds = |families: Vec<(usize, u64)>, rounds: usize| {
+            (0..rounds).flat_map(move |round| {
+                let jobs = families.clone().into_iter();
+                jobs.map(move |(family, seed)| (round, family, seed))
+            })
+        };
+        let mut jobs: Vec<Job> = Vec::new();
+        for (round, family, seed) in rounds(first, FIRST_ROUNDS).chain(rounds(all, count)) {
+            if jobs.len() >= count {
+                break;
+            }
+            let job = Job {
+                index: jobs.len() as u64,
+                family,
+                seed: seed.wrapping_add(round as u64),
+            };
+            let is_fixed = self.families[family].0.is_fixed();
+            let is_known = |other: &Job| other.family == family && (is_fixed || other.seed == job.seed);
+            if !jobs.iter().any(is_known) {
+                jobs.push(job);
+            }
+        }
+        jobs
     }
 
     /// The family of a job and how the user named it.

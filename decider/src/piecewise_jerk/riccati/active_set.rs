@@ -8,6 +8,7 @@
 
 use super::stages::{JERK, Lanes, Stages};
 use super::sweep::{Sweep, jerk_gradient};
+use crate::steps;
 
 /// The weight on a touched limit of the state, relative to the greatest curvature of the cost. Much more loses in
 /// rounding what it gains in speed.
@@ -130,6 +131,7 @@ impl ActiveSet {
 
     /// One step of the method of multipliers; how far the worst touching state is off its limit.
     fn refine(&mut self, stages: &Stages, sweep: &mut Sweep) -> f64 {
+        steps::count();
         for (i, touched) in self.touched.iter().enumerate() {
             let values = &self.values[i];
             for k in 0..4 {

@@ -18,6 +18,7 @@ mod start;
 mod sweep;
 
 use super::{Problem, Solution, SolveError, Solver, State};
+use crate::steps;
 use active_set::ActiveSet;
 use interior_point::InteriorPoint;
 use stages::{Lanes, Stages};
@@ -110,6 +111,7 @@ impl Riccati {
         self.interior.start(&self.stages, &self.start.values, first);
         let mut look = NEAR_ENOUGH * first;
         for iteration in 1..=MOST_ITERATIONS {
+            steps::count();
             let length = self.interior.step(&self.stages, &mut self.sweep);
             *factorisations += 1;
             self.interior.multipliers(&mut self.active.multipliers);

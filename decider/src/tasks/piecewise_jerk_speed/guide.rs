@@ -8,6 +8,7 @@ use super::rules::{self, BRAKE_LATE, Motion};
 use crate::decision::{Stop, StopCause};
 use crate::planner::{LinePlan, TaskError};
 use crate::st_graph::{BoundaryType, SpeedData, SpeedPoint, StBoundary, StPoint};
+use crate::steps;
 use crate::tasks::piecewise_jerk_speed::SpeedConfig;
 use crate::tasks::scene::Scene;
 use crate::tasks::speed_bounds::{Envelope, OnPath};
@@ -53,6 +54,7 @@ pub(super) struct Guide {
 /// [`TaskError::Unavoidable`] where the profile meets an obstacle whatever is yielded to.
 pub(super) fn integrate(plan: &mut LinePlan, wall: Stop) -> Result<Guide, TaskError> {
     loop {
+        steps::count();
         let planner = Planner {
             scene: &plan.scene,
             envelope: plan.envelope.as_ref().ok_or(TaskError::NoPath)?,

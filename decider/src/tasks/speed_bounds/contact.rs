@@ -6,6 +6,7 @@
 
 use super::track::{Place, Track};
 use crate::geometry::Vec2;
+use crate::steps;
 
 /// Ends of a stretch are found to this, m; what is added is added outside.
 const TIGHT: f64 = 0.1;
@@ -95,6 +96,7 @@ impl Track {
     fn walked(&self, corners: &[Vec2], from: f64, limit: f64) -> f64 {
         let (mut touching, mut step) = (from, TIGHT.copysign(limit - from));
         while (limit - touching).abs() > f64::EPSILON {
+            steps::count();
             let next = if step > 0.0 {
                 (touching + step).min(limit)
             } else {
@@ -119,6 +121,7 @@ impl Track {
         free = beside;
         let mut touching = touching;
         while (touching - free).abs() > TIGHT {
+            steps::count();
             let middle = f64::midpoint(free, touching);
             if self.touch_at(middle, corners).is_some() {
                 touching = middle;

@@ -7,6 +7,7 @@ use super::cost::{Costs, differences};
 use super::grid::Grid;
 use super::{Node, SpeedHeuristicConfig};
 use crate::st_graph::{BoundaryType, StBoundary, StGraphData, StPoint};
+use crate::steps;
 use crate::vehicle::VehicleParams;
 
 /// How much faster than the upper limit of speed a predecessor may come, as a factor.
@@ -83,6 +84,7 @@ impl<'a> Sweep<'a> {
         let mut range = self.rows_after(&root);
         self.columns.push(root);
         for column in 1..self.grid.columns.len() {
+            steps::count();
             let reached = self.column(column, range);
             range = self.rows_after(&reached);
             self.columns.push(reached);

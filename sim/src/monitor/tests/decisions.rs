@@ -1,6 +1,7 @@
 //! Soundness, containment, jitter, flips, retargets, tracking.
 
 use super::fixture::*;
+use crate::decider::NoAnswer;
 use crate::verdict::Ending;
 use corridor_decider::decision::{Decision, Outcome, PullOverTarget};
 use corridor_decider::frame::ObstacleId;
@@ -53,7 +54,8 @@ fn unsound_answers_end_the_run() {
 #[test]
 fn a_panic_is_the_deciders_failure() {
     let mut run = run();
-    run.monitor.decider_failed(1.3, "index out of range");
+    run.monitor
+        .decider_failed(1.3, &NoAnswer::Panicked("index out of range".to_owned()));
     let verdict = run.verdict();
     assert_eq!(verdict.ending, Ending::DeciderFailed);
     assert!(
