@@ -3,6 +3,7 @@
 //! Exit codes: 0 passed, 1 a gate failed, 2 wrong use or bad input.
 #![allow(clippy::print_stdout, reason = "a program that prints its results")]
 
+mod blame;
 mod catalog;
 mod export;
 mod import;
@@ -31,6 +32,8 @@ enum Verb {
     Run(run::Run),
     /// Run many seeds of many scenarios and report.
     Sweep(sweep::Sweep),
+    /// Find out whose fault a run that failed is, and whether it could have been avoided.
+    Blame(blame::Blame),
     /// Run a trace again and compare every state.
     Replay(trace::Replay),
     /// List the catalog.
@@ -59,6 +62,7 @@ pub(crate) fn main() -> ExitCode {
     let gate = match &arguments.verb {
         Verb::Run(run) => run.execute(),
         Verb::Sweep(sweep) => sweep.execute(),
+        Verb::Blame(blame) => blame.execute(),
         Verb::Replay(replay) => replay.execute(),
         Verb::List(list) => list.execute(),
         Verb::Validate(validate) => validate.execute(),
