@@ -22,7 +22,7 @@ const BEFORE: f64 = 2.0;
 const BUDGET: usize = 60_000;
 
 /// Whether the search survives from a time on, for as long as it would have to around a bad end [`BEFORE`] later.
-fn survives(recording: &Recording, from: f64) -> bool {
+fn survives(recording: &Recording, from: f64) -> Result<(), Answer> {
     let grid = Grid::default();
     let tick = (recording.sample_at(from) / 10) * 10;
     let event = tick + recording.sample_at(BEFORE);
@@ -30,29 +30,43 @@ fn survives(recording: &Recording, from: f64) -> bool {
     match inquest.search(tick, BUDGET, 0.0) {
         Answer::Survives(witness) => {
             assert_eq!(witness.check(&recording.surroundings, inquest.limits()), Ok(()));
-            true
+            Ok(())
         }
-        Answer::Dies | Answer::Exhausted(_) => false,
+        lost => Err(lost),
     }
 }
 
 /// The moments at which a survived run is asked: its start, and before it came nearest to somebody.
 fn moments(recording: &Recording) -> Vec<f64> {
-    let clearance = recording.verdict.metrics.iter().find(|m| m.name == "min_clearance");
+    let clearance = recording
+        .verdict
+        .metrics
+        .iter()
+        .find(|m| m.name == "min_clearance");
     let nearest = clearance.and_then(|m| m.worst_t).map(|t| (t - BEFORE).max(0.0));
     std::iter::once(0.0).chain(nearest).collect()
 }
 
 fn is_survived(recording: &Recording) -> bool {
-    let road = recording.verdict.metrics.iter().find(|m| m.name == "drivable_area");
+    let road = recording
+        .verdict
+        .metrics
+        .iter()
+        .find(|m| m.name == "drivable_area");
     recording.verdict.collisions.is_empty() && road.is_none_or(|m| m.pass)
 }
 
 #[test]
 fn what_a_planner_survived_the_search_survives() {
-    let wanted = std::env::var("CORRIDOR_BLAME_RUNS").ok().and_then(|n| n.parse().ok()).unwrap_or(RUNS);
+    let wanted = std::env::var("CORRIDOR_BLAME_RUNS")
+        .ok()
+        .and_then(|n| n.parse().ok())
+        .unwrap_or(RUNS);
     let maps = MapCache::new();
-    let families: Vec<Family> = catalog::ENTRIES.iter().filter_map(|entry| entry.load(&maps).ok()).collect();
+    let families: Vec<Family> = catalog::ENTRIES
+        .iter()
+        .filter_map(|entry| entry.load(&maps).ok())
+        .collect();
     let planners = [settings(&[]), settings(&["decider.planner=lattice"])];
     let (mut runs, mut asked, mut missed) = (0, 0, Vec::new());
     'all: for seed in 300.. {
@@ -65,8 +79,12 @@ fn what_a_planner_survived_the_search_survives() {
             runs += 1;
             for from in moments(&recording) {
                 asked += 1;
-                if !survives(&recording, from) {
-                    missed.push(format!("{} seed {seed} {:?} from {from}", family.name(), settings.decider.planner));
+                if let Err(lost) = survives(&recording, from) {
+                    let planner = settings.decider.planner;
+                    missed.push(format!(
+                        "{} seed {seed} {planner:?} from {from}: {lost:?}",
+                        family.name()
+                    ));
                 }
             }
             if runs >= wanted {
@@ -100,8 +118,14 @@ fn as_driven_by(scene: &Scenario, driver: &Obstacle) -> Option<Scenario> {
         return None;
     };
     let there = states.first().is_some_and(|s| s.t <= 0.0) && states.last().is_some_and(|s| s.t >= 3.0);
-    let start = states.iter().take_while(|s| s.t <= 0.0).last().filter(|_| there)?;
-    let half = |of: fn(&corridor_decider::geometry::Vec2) -> f64| driver.shape.vertices().iter().map(of).fold(0.0, f64::max);
+    let start = states
+        .iter()
+        .take_while(|s| s.t <= 0.0)
+        .last()
+        .filter(|_| there)?;
+    let half = |of: fn(&corridor_decider::geometry::Vec2) -> f64| {
+        driver.shape.vertices().iter().map(of).fold(0.0, f64::max)
+    };
     let (length, width) = (2.0 * half(|v| v.x), 2.0 * half(|v| v.y.abs()));
     let usual = VehicleParams::default();
     let back = usual.back_edge_to_center;
@@ -138,7 +162,9 @@ fn survived_himself(recording: &Recording, driver: &Obstacle, seconds: f64) -> b
         let sample = recording.sample_at(state.t);
         let others = &surroundings.scenario.obstacles;
         let on_road = |c| surroundings.scenario.map.distance_off_road(c) <= surroundings.off_road;
-        others.iter().all(|o| !body.overlaps(&surroundings.outline(o.id, sample)))
+        others
+            .iter()
+            .all(|o| !body.overlaps(&surroundings.outline(o.id, sample)))
             && body.vertices().iter().all(|c| on_road(*c))
     })
 }
@@ -151,7 +177,9 @@ fn what_a_recorded_driver_survived_the_search_survives() {
         let Ok(family) = Family::load(&file) else { continue };
         let scene = family.draw(1).unwrap().scenario;
         for driver in &scene.obstacles {
-            let Some(scenario) = as_driven_by(&scene, driver) else { continue };
+            let Some(scenario) = as_driven_by(&scene, driver) else {
+                continue;
+            };
             let short = Scenario {
                 timeout: BEFORE + AFTERMATH,
                 ..scenario
@@ -161,8 +189,13 @@ fn what_a_recorded_driver_survived_the_search_survives() {
                 continue;
             }
             drivers += 1;
-            if !survives(&recording, 0.0) {
-                missed.push(format!("{} `{}`", family.name(), driver.name));
+            if let Err(lost) = survives(&recording, 0.0) {
+                let (ego, vehicle) = (recording.ego[0], short.vehicle);
+                missed.push(format!(
+                    "{} `{}` {lost:?} {ego:?} {vehicle:?}",
+                    family.name(),
+                    driver.name
+                ));
             }
         }
     }

@@ -91,6 +91,14 @@ pub fn can_move(obstacle: &Obstacle) -> bool {
     }
 }
 
+/// Whether an obstacle is predicted to do what it then does: it stands, or moves as recorded.
+pub fn is_predicted_truly(obstacle: &Obstacle) -> bool {
+    matches!(
+        obstacle.behaviour,
+        Behaviour::Parked(_) | Behaviour::Recorded { .. }
+    )
+}
+
 impl Actor {
     fn new(behaviour: &Behaviour) -> Self {
         match behaviour {

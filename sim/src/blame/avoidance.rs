@@ -85,7 +85,13 @@ pub struct Inquest<'a> {
 
 impl<'a> Inquest<'a> {
     /// The inquest on a bad end at sample `event`, in which the obstacle at place `with` took part.
-    pub fn new(recording: &'a Recording, grid: &'a Grid, event: usize, with: Option<usize>, period: f64) -> Self {
+    pub fn new(
+        recording: &'a Recording,
+        grid: &'a Grid,
+        event: usize,
+        with: Option<usize>,
+        period: f64,
+    ) -> Self {
         let scenario = &recording.surroundings.scenario;
         let tick = super::search::samples_in(period, recording.surroundings.dt);
         let seen = |sample: &usize| {

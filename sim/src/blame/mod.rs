@@ -25,6 +25,7 @@ mod tests;
 pub mod tracks;
 pub mod witness;
 
+use crate::agents;
 use crate::run;
 use crate::settings::{Prediction, Settings, Tracking};
 use crate::verdict::{CollisionClass, Ending, Verdict};
@@ -158,7 +159,10 @@ fn failure_of(recording: &Recording) -> (Failure, usize) {
         };
         return (failure, hit);
     }
-    let failed = verdict.metrics.iter().find(|m| m.gate && !m.pass && m.name != "scenario_completed");
+    let failed = verdict
+        .metrics
+        .iter()
+        .find(|m| m.gate && !m.pass && m.name != "scenario_completed");
     let failure = match (verdict.ending, failed) {
         (Ending::DeciderFailed, _) => Failure::DeciderFailed,
         (_, Some(gate)) => {
@@ -185,11 +189,15 @@ fn first_off_road(recording: &Recording) -> Option<usize> {
     })
 }
 
-/// The runs of the same seed with one link replaced, those in which it is not replaced already.
+/// The runs of the same seed with one link replaced, those in which that changes anything.
 fn replacements(scenario: &Scenario, settings: &Settings, failure: &Failure) -> Vec<Replacement> {
     let all = [Replaced::Prediction, Replaced::Tracker, Replaced::Planner];
     let changed = all.map(|replaced| (replaced, replaced.in_settings(settings)));
-    let new = changed.into_iter().filter(|(_, changed)| changed != settings);
+    // Where everybody stands or moves as recorded, predictions are the true futures already.
+    let is_open = scenario.obstacles.iter().any(|o| !agents::is_predicted_truly(o));
+    let new = changed
+        .into_iter()
+        .filter(|(replaced, changed)| changed != settings && (is_open || *replaced != Replaced::Prediction));
     new.map(|(replaced, changed)| {
         let verdict = run::run(scenario, &changed);
         Replacement {
@@ -291,7 +299,10 @@ fn inspected(recording: &Recording, failure: &Failure, event: usize, avoidable: 
     };
     let is_later = |(frame, _): &&(corridor_decider::frame::Frame, _)| frame.time > time + 1e-6;
     let ticks = &recording.ticks;
-    let place = ticks.iter().position(|tick| is_later(&tick)).unwrap_or(ticks.len());
+    let place = ticks
+        .iter()
+        .position(|tick| is_later(&tick))
+        .unwrap_or(ticks.len());
     let Some((frame, decision)) = ticks.get(place.saturating_sub(1)) else {
         return Link::Decider;
     };

@@ -155,7 +155,12 @@ impl Question<'_> {
 
     fn choices(&self) -> impl Iterator<Item = Choice> {
         let steers = self.grid.steers.len();
-        (0..self.grid.accelerations.len() * steers).map(move |k| (k % (self.grid.accelerations.len()), k / self.grid.accelerations.len()))
+        (0..self.grid.accelerations.len() * steers).map(move |k| {
+            (
+                k % (self.grid.accelerations.len()),
+                k / self.grid.accelerations.len(),
+            )
+        })
     }
 
     /// One step of a motion; `None` when it ends in a collision or off the road.

@@ -110,7 +110,10 @@ impl Rectangle {
             let p = local(*vertex);
             (low, high) = (low.inf(&p), high.sup(&p));
         }
-        if low.x >= self.front || high.x <= -self.back || low.y >= self.half_width || high.y <= -self.half_width
+        if low.x >= self.front
+            || high.x <= -self.back
+            || low.y >= self.half_width
+            || high.y <= -self.half_width
         {
             return false;
         }
@@ -145,7 +148,12 @@ impl Surroundings {
     pub fn new(scenario: &Scenario, dt: f64) -> Self {
         let track = |obstacle: &corridor_scenarios::scenario::Obstacle| Track {
             outline: obstacle.shape.vertices().to_vec(),
-            reach: obstacle.shape.vertices().iter().map(Vec2::norm).fold(0.0, f64::max),
+            reach: obstacle
+                .shape
+                .vertices()
+                .iter()
+                .map(Vec2::norm)
+                .fold(0.0, f64::max),
             poses: vec![Placed::at(crate::agents::start_of(obstacle).pose)],
         };
         let start = scenario.vehicle.footprint(scenario.ego.pose);
@@ -169,7 +177,14 @@ impl Surroundings {
     }
 
     /// Who may come near the car between two samples, when it goes from one place to another in that time.
-    pub(super) fn near(&self, body: &Rectangle, car: &CarState, way: f64, samples: (usize, usize), near: &mut Near) {
+    pub(super) fn near(
+        &self,
+        body: &Rectangle,
+        car: &CarState,
+        way: f64,
+        samples: (usize, usize),
+        near: &mut Near,
+    ) {
         let (ahead, radius) = body.circle();
         let centre = car.place + car.forward * ahead;
         near.0.clear();

@@ -41,10 +41,16 @@ impl Blame {
         let text = if self.json {
             serde_json::to_string_pretty(&blame)? + "\n"
         } else {
-            blame.as_ref().map_or("passed: nothing to blame\n".to_owned(), text)
+            blame
+                .as_ref()
+                .map_or("passed: nothing to blame\n".to_owned(), text)
         };
         output::print(&text);
-        Ok(if blame.is_none() { Gate::Passed } else { Gate::Failed })
+        Ok(if blame.is_none() {
+            Gate::Passed
+        } else {
+            Gate::Failed
+        })
     }
 }
 

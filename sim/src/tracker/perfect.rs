@@ -39,7 +39,14 @@ pub(crate) fn perfect(
         yaw_rate: now.v * kappa,
         steer: libm::atan(vehicle.wheel_base * kappa),
     };
-    let numbers = [there.pose.x, there.pose.y, there.pose.theta, there.v, there.a, kappa];
+    let numbers = [
+        there.pose.x,
+        there.pose.y,
+        there.pose.theta,
+        there.v,
+        there.a,
+        kappa,
+    ];
     if numbers.iter().all(|number| number.is_finite()) {
         there
     } else {

@@ -38,7 +38,10 @@ fn a_mirrored_world_is_not_the_scenarios_fault_and_the_last_moment_is_that_of_br
         whose,
         ..
     } = blame(&scenario(straight(), 10.0, parked), &settings).unwrap();
-    assert!(matches!(failure, Failure::Collision { at_fault: true, .. }), "{failure}");
+    assert!(
+        matches!(failure, Failure::Collision { at_fault: true, .. }),
+        "{failure}"
+    );
     let Avoidable::Yes {
         until: Some(until), ..
     } = avoidable
@@ -101,7 +104,11 @@ fn true_futures_are_what_then_happens() {
         let recording = Recording::of(&scene, &settings);
         let mut worst = 0.0_f64;
         for (frame, _) in &recording.ticks {
-            for (obstacle, predicted) in frame.obstacles.iter().flat_map(|o| o.prediction.iter().map(move |p| (o, p))) {
+            for (obstacle, predicted) in frame
+                .obstacles
+                .iter()
+                .flat_map(|o| o.prediction.iter().map(move |p| (o, p)))
+            {
                 let sample = recording.sample_at(frame.time + predicted.t);
                 if sample < recording.ego.len() {
                     let there = recording.surroundings.tracks[obstacle.id.0 as usize].pose(sample);
@@ -113,25 +120,40 @@ fn true_futures_are_what_then_happens() {
     };
     let (told, expected) = (worst(Prediction::TrueFuture), worst(Prediction::Expected));
     assert!(told < 1e-3, "{told} m off");
-    assert!(expected > 1.0, "nobody expects the pedestrian to walk: {expected} m off");
+    assert!(
+        expected > 1.0,
+        "nobody expects the pedestrian to walk: {expected} m off"
+    );
 }
 
 #[test]
 fn each_replacement_is_made_once_and_not_where_it_is_made_already() {
-    let kinds = |settings: &Settings| {
-        let blame = blame(&scenario(straight(), 14.0, wall(5.0)), settings).unwrap();
+    let kinds = |settings: &Settings, others: &[Behaviour]| {
+        let mut behaviours = wall(5.0);
+        behaviours.extend_from_slice(others);
+        let blame = blame(&scenario(straight(), 14.0, behaviours), settings).unwrap();
         blame.runs.iter().map(|run| run.replaced).collect::<Vec<_>>()
     };
     let all = [Replaced::Prediction, Replaced::Tracker, Replaced::Planner];
-    assert_eq!(kinds(&Settings::default()), all);
+    let walker = Behaviour::Pedestrian {
+        from: Vec2::new(400.0, -6.0),
+        to: Vec2::new(400.0, 9.0),
+        speed: 1.5,
+        trigger: Trigger::Time(1.0),
+    };
+    assert_eq!(kinds(&Settings::default(), &[walker]), all);
+    assert_eq!(kinds(&Settings::default(), &[]), all[1..], "nobody to predict");
     let perfect = Settings {
         tracker: Tracking::Perfect,
         ..Settings::default()
     };
-    assert_eq!(kinds(&perfect), [Replaced::Prediction, Replaced::Planner]);
+    assert_eq!(kinds(&perfect, &[]), [Replaced::Planner]);
 }
 
 #[test]
 fn a_run_that_passes_is_nobodys_fault() {
-    assert_eq!(blame(&scenario(straight(), 10.0, Vec::new()), &Settings::default()), None);
+    assert_eq!(
+        blame(&scenario(straight(), 10.0, Vec::new()), &Settings::default()),
+        None
+    );
 }

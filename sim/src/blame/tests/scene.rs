@@ -64,7 +64,11 @@ pub(super) fn random(stir: &mut Stir) -> Scenario {
     let count = stir.next(1.0, 5.0);
     let mut behaviours = Vec::new();
     while (behaviours.len() as f64) < count.floor() {
-        let from = Pose::new(30.0 + stir.next(-14.0, 26.0), stir.next(-2.5, 2.5), stir.next(-0.3, 0.3));
+        let from = Pose::new(
+            30.0 + stir.next(-14.0, 26.0),
+            stir.next(-2.5, 2.5),
+            stir.next(-0.3, 0.3),
+        );
         let to = Pose::new(from.x + stir.next(-25.0, 35.0), stir.next(-2.5, 2.5), from.theta);
         behaviours.push(if stir.next(0.0, 1.0) < 0.5 {
             Behaviour::Parked(from)

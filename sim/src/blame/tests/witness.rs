@@ -64,7 +64,9 @@ fn a_motion_through_others_or_off_the_road_is_no_witness() {
             let last = states[states.len() - 1];
             states.push(last.advanced(command, &limits, surroundings.dt));
         }
-        Witness { first: 0, states }.check(&surroundings, &limits).unwrap_err()
+        Witness { first: 0, states }
+            .check(&surroundings, &limits)
+            .unwrap_err()
     };
     assert!(drive(0.0).contains("overlaps `car 0`"));
     assert!(drive(0.02).contains("overlaps `car 1`"));
