@@ -7,15 +7,16 @@ use crate::faults::{Following, Planted};
 use crate::monitor::{Monitor, Motion, StepView, Traffic};
 use crate::perception;
 use crate::route::Route;
-use crate::settings::Settings;
+use crate::settings::{Prediction, Settings, Tracking};
 use crate::story::Story;
 use crate::trace::{Controls, TickRecord, TraceError};
-use crate::tracker::TrackerConfig;
+use crate::tracker::{self, TrackerConfig};
 use crate::verdict::Verdict;
 use crate::world::{Fnv, World};
 use corridor_decider::decision::{Decision, TrajectoryPoint};
-use corridor_decider::frame::{Frame, ObstacleId};
+use corridor_decider::frame::{EgoState, Frame, ObstacleId};
 use corridor_decider::planner::TaskName;
+use corridor_decider::vehicle::VehicleParams;
 use corridor_scenarios::Scenario;
 
 /// Takes in each finished tick: a trace writer, a test, or nobody.
@@ -25,6 +26,9 @@ pub trait Sink {
     /// # Errors
     /// [`TraceError`] when it cannot be kept; the run stops then.
     fn tick(&mut self, tick: &TickRecord) -> Result<(), TraceError>;
+
+    /// Hears where the ego is after a physics step.
+    fn stepped(&mut self, _: &EgoState) {}
 
     /// Hears that the decider is about to be asked. The loop knows no clock; whoever times the decider does it here.
     fn deciding(&mut self) {}
@@ -60,6 +64,9 @@ pub struct ClosedLoop {
     monitor: Monitor,
     story: Story,
     sensor_range: f64,
+    tracking: Tracking,
+    prediction: Prediction,
+    vehicle: VehicleParams,
     digest: Fnv,
 }
 
@@ -79,6 +86,9 @@ impl ClosedLoop {
             monitor: Monitor::new(scenario).with_rss(settings.rss),
             story: Story::new(scenario),
             sensor_range: perception::SENSOR_RANGE,
+            tracking: settings.tracker,
+            prediction: settings.prediction,
+            vehicle: scenario.vehicle,
             digest: Fnv::new(),
         }
     }
@@ -115,7 +125,7 @@ impl ClosedLoop {
         self.monitor.tick(&frame, &decision);
         let mut controls = Controls::default();
         for step in 0..self.clock.steps_per_tick() {
-            controls = self.drive(&decision.trajectory, step);
+            controls = self.drive(&decision.trajectory, step, sink);
             if self.monitor.is_over().is_some() {
                 break;
             }
@@ -128,6 +138,10 @@ impl ClosedLoop {
     fn observe(&mut self) -> Frame {
         let ego = perception::localise(&self.world);
         let time = self.clock.time();
+        let mut obstacles = perception::observe(&self.world, &self.agents, self.sensor_range);
+        if self.prediction == Prediction::TrueFuture {
+            perception::foresee(&mut obstacles, &self.world, &self.agents);
+        }
         Frame {
             tick: self.clock.tick(),
             time,
@@ -135,16 +149,24 @@ impl ClosedLoop {
             command: self.route.command(time),
             cruise_speed: self.route.cruise_speed(),
             lines: self.route.lines(&ego, time),
-            obstacles: perception::observe(&self.world, &self.agents, self.sensor_range),
+            obstacles,
         }
     }
 
     /// One physics step along the trajectory.
-    fn drive(&mut self, trajectory: &[TrajectoryPoint], step: u32) -> Controls {
+    fn drive(&mut self, trajectory: &[TrajectoryPoint], step: u32, sink: &mut dyn Sink) -> Controls {
         let ego = self.world.ego();
         let controls = self.tracker.track(&ego, trajectory, self.clock.since_tick(step));
         let moved = self.agents.advance(&ego, self.world.dt());
-        self.world.step(controls, moved);
+        match self.tracking {
+            Tracking::Feedback => self.world.step(controls, moved),
+            Tracking::Perfect => {
+                let after = self.clock.since_tick(step + 1);
+                let there = tracker::perfect(&ego, trajectory, after, &self.vehicle, self.world.dt());
+                self.world.place(there, moved);
+            }
+        }
+        sink.stepped(&self.world.ego());
         let footprint = self.world.ego_footprint();
         let overlapping: Vec<ObstacleId> = self.world.hits().collect();
         self.monitor.step(&StepView {

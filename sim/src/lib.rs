@@ -1,6 +1,7 @@
 //! The closed loop: a world, a tracker, a monitor, and what records and repeats their runs.
 
 pub mod agents;
+pub mod blame;
 mod clock;
 pub mod closed_loop;
 pub mod decider;

@@ -31,6 +31,18 @@ pub fn observe(world: &World, agents: &Agents, range: f64) -> Vec<Obstacle> {
         .collect()
 }
 
+/// Puts the true futures in the place of the predictions.
+pub fn foresee(obstacles: &mut [Obstacle], world: &World, agents: &Agents) {
+    if obstacles.iter().all(|obstacle| obstacle.prediction.is_empty()) {
+        return;
+    }
+    let mut futures = agents.futures(&world.ego(), world.dt());
+    for obstacle in obstacles.iter_mut().filter(|o| !o.prediction.is_empty()) {
+        let future = std::mem::take(&mut futures[obstacle.id.0 as usize]);
+        obstacle.prediction = future.into_iter().map(rounded).collect();
+    }
+}
+
 /// The ego as localised: rounded like everything else.
 pub fn localise(world: &World) -> EgoState {
     let ego = world.ego();
@@ -44,10 +56,6 @@ pub fn localise(world: &World) -> EgoState {
 }
 
 fn perceive(body: &ObstacleBody, agents: &Agents) -> Obstacle {
-    let seen = |expected: PredictedPose| PredictedPose {
-        t: expected.t,
-        pose: round_pose(expected.pose),
-    };
     Obstacle {
         id: body.id,
         kind: body.kind,
@@ -55,7 +63,14 @@ fn perceive(body: &ObstacleBody, agents: &Agents) -> Obstacle {
         shape: body.shape.clone(),
         velocity: Vec2::new(round(body.velocity.x), round(body.velocity.y)),
         is_static: !agents.moves(body.id),
-        prediction: agents.predict(body.id).into_iter().map(seen).collect(),
+        prediction: agents.predict(body.id).into_iter().map(rounded).collect(),
+    }
+}
+
+fn rounded(expected: PredictedPose) -> PredictedPose {
+    PredictedPose {
+        t: expected.t,
+        pose: round_pose(expected.pose),
     }
 }
 

@@ -22,6 +22,32 @@ pub struct Settings {
     pub failures: Vec<Failure>,
     /// The safe distances that the monitor holds a run against.
     pub rss: RssProfile,
+    /// How the ego follows what was decided.
+    pub tracker: Tracking,
+    /// What the decider is told of the others' future.
+    pub prediction: Prediction,
+}
+
+/// How the ego follows a trajectory.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Tracking {
+    /// By feedback, as a car does.
+    #[default]
+    Feedback,
+    /// Perfectly: it is put where the trajectory has it at each physics step. Contacts are judged all the same.
+    Perfect,
+}
+
+/// What the decider is told of the others' future.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Prediction {
+    /// What an observer expects: on along the line, on along the record, straight on.
+    #[default]
+    Expected,
+    /// What they are going to do if the ego goes straight on as it does. Exact for who does not react to it.
+    TrueFuture,
 }
 
 impl Default for Settings {
@@ -33,6 +59,8 @@ impl Default for Settings {
             fault: Fault::NONE,
             failures: Vec::new(),
             rss: RssProfile::default(),
+            tracker: Tracking::default(),
+            prediction: Prediction::default(),
         }
     }
 }

@@ -78,6 +78,11 @@ impl IdmDriver {
         }
     }
 
+    /// Drives on at the speed of now until the next look ahead.
+    pub(super) fn keep_speed(&mut self) {
+        self.acceleration = 0.0;
+    }
+
     pub(super) fn advance(&mut self, moment: &Moment, dt: f64) {
         if let Some(manoeuvre) = &mut self.manoeuvre {
             manoeuvre.steer(&mut self.follower, moment, dt);

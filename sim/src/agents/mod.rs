@@ -33,6 +33,9 @@ pub const PREDICTION_STEP: f64 = 0.5;
 /// Time between two looks at the traffic ahead, s: drivers do not react faster, and looking is what costs.
 const REACTION_PERIOD: f64 = 0.1;
 
+/// Where the ego is for those who go on without it, m: farther from all maps than anyone looks.
+const NOWHERE: Vec2 = Vec2::new(4e8, 4e8);
+
 /// All obstacles of a scenario as actors.
 #[derive(Clone, Debug)]
 pub struct Agents {
@@ -91,6 +94,14 @@ pub fn can_move(obstacle: &Obstacle) -> bool {
         Behaviour::Pedestrian { from, to, speed, .. } => from != to && *speed > 0.0,
         Behaviour::Idm { .. } | Behaviour::Recorded { .. } => true,
     }
+}
+
+/// Whether an obstacle is predicted to do what it then does: it stands, or moves as recorded.
+pub fn is_predicted_truly(obstacle: &Obstacle) -> bool {
+    matches!(
+        obstacle.behaviour,
+        Behaviour::Parked(_) | Behaviour::Recorded { .. }
+    )
 }
 
 impl Actor {
@@ -192,14 +203,20 @@ impl Agents {
             ego: ego.pose.position(),
             ego_v: ego.v,
         };
+        self.move_all(&moment, dt, |_| {});
+        &self.moving
+    }
+
+    /// Moves everyone who can move, after `prepare`.
+    fn move_all(&mut self, moment: &Moment, dt: f64, prepare: impl Fn(&mut Actor)) {
         for moved in &mut self.moving {
             let place = moved.id.0 as usize;
             let actor = &mut self.actors[place];
-            actor.advance(&moment, dt);
+            prepare(actor);
+            actor.advance(moment, dt);
             *moved = actor.body_pose(moved.id);
             self.bodies[place].place(moved.pose, moved.velocity);
         }
-        &self.moving
     }
 
     /// Poses from now on, [`PREDICTION_STEP`] apart, that an observer expects: on along the line for who
@@ -242,6 +259,54 @@ impl Agents {
             },
         };
         times.map(straight_on).collect()
+    }
+
+    /// Those that can move, in ascending order.
+    pub(crate) fn moving(&self) -> &[BodyPose] {
+        &self.moving
+    }
+
+    /// One step of everyone without the ego: who waits for it goes on waiting, who drives behind others keeps his
+    /// speed.
+    pub(crate) fn go_on_alone(&mut self, dt: f64) {
+        self.steps += 1;
+        let moment = Moment {
+            time: f64::from(self.steps) * dt,
+            ego: NOWHERE,
+            ego_v: 0.0,
+        };
+        self.move_all(&moment, dt, |actor| {
+            if let Actor::Idm(driver) = actor {
+                driver.keep_speed();
+            }
+        });
+    }
+
+    /// What everyone is going to do from now on if the ego goes straight on at its speed, by obstacle; as far and as
+    /// finely as [`Agents::predict`]. The record of who moves as recorded is its prediction already.
+    pub fn futures(&self, ego: &EgoState, dt: f64) -> Vec<Vec<PredictedPose>> {
+        let ids = (0_u32..).map(ObstacleId).take(self.actors.len());
+        let mut futures: Vec<Vec<PredictedPose>> = ids.map(|id| self.predict(id)).collect();
+        let is_open = |moved: &&BodyPose| !matches!(self.actors[moved.id.0 as usize], Actor::Recorded(_));
+        if !self.moving.iter().any(|moved| is_open(&moved)) {
+            return futures;
+        }
+        let (mut ghost, mut ego) = (self.clone(), *ego);
+        let mut t = 0.0;
+        let longest = futures.iter().map(Vec::len).max().unwrap_or(0);
+        for k in 1..longest {
+            while t < k as f64 * PREDICTION_STEP - dt / 2.0 {
+                ghost.advance(&ego, dt);
+                ego.pose = ego.pose.advanced(ego.v * dt);
+                t += dt;
+            }
+            for moved in ghost.moving.iter().filter(is_open) {
+                if let Some(at) = futures[moved.id.0 as usize].get_mut(k) {
+                    at.pose = moved.pose;
+                }
+            }
+        }
+        futures
     }
 
     /// Whether an obstacle can ever move.

@@ -3,6 +3,7 @@
 //! Exit codes: 0 passed, 1 a gate failed, 2 wrong use or bad input.
 #![allow(clippy::print_stdout, reason = "a program that prints its results")]
 
+mod blame;
 mod catalog;
 mod export;
 mod faults;
@@ -45,6 +46,8 @@ enum Verb {
     Shrink(shrink::Shrink),
     /// Plant faults one by one and see whether each is caught.
     Faults(faults::Faults),
+    /// Find out whose fault a run that failed is, and whether it could have been avoided.
+    Blame(blame::Blame),
     /// Run a trace again and compare every state.
     Replay(trace::Replay),
     /// List the catalog.
@@ -78,6 +81,7 @@ pub(crate) fn main() -> ExitCode {
         Verb::Compare(compare) => compare.execute(),
         Verb::Shrink(shrink) => shrink.execute(),
         Verb::Faults(faults) => faults.execute(),
+        Verb::Blame(blame) => blame.execute(),
         Verb::Replay(replay) => replay.execute(),
         Verb::List(list) => list.execute(),
         Verb::Validate(validate) => validate.execute(),

@@ -7,10 +7,12 @@
 
 mod config;
 mod foot;
+mod perfect;
 #[cfg(test)]
 mod tests;
 
 pub use config::TrackerConfig;
+pub(crate) use perfect::perfect;
 
 use crate::trace::Controls;
 use corridor_decider::decision::TrajectoryPoint;

@@ -27,6 +27,11 @@ impl Actuators {
         }
     }
 
+    /// Puts the actuators where they are said to be.
+    pub(super) fn hold(&mut self, steer: f64, acceleration: f64) {
+        (self.steer, self.acceleration) = (steer, acceleration);
+    }
+
     /// Moves the actuators towards `controls` for one step. A command that is not a number is not
     /// understood: the last one stays in force.
     pub(super) fn advance(

@@ -166,6 +166,24 @@ impl World {
         self.proximity.update(&self.ego_outline, &self.outlines);
     }
 
+    /// One step without physics for the ego: it is put where `ego` says, the obstacles named in `moved` go to their
+    /// new poses. Overlaps are found as ever.
+    pub fn place(&mut self, ego: EgoState, moved: &[BodyPose]) {
+        self.pushed.clear();
+        self.move_obstacles(moved);
+        let velocity = ego.pose.forward() * ego.v;
+        let swing = ego.pose.forward() * (ego.yaw_rate * self.dynamics.center_of_mass);
+        self.motion = Motion {
+            pose: to_rapier(ego.pose),
+            velocity: Vector::new(velocity.x - swing.y, velocity.y + swing.x),
+            yaw: ego.yaw_rate,
+        };
+        self.actuators.hold(ego.steer, ego.a);
+        self.engine_in_step = false;
+        self.read_ego();
+        self.proximity.update(&self.ego_outline, &self.outlines);
+    }
+
     /// Length of one step, s.
     pub fn dt(&self) -> f64 {
         self.dt
