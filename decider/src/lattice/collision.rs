@@ -1,64 +1,64 @@
 //! Whether a trajectory would touch anything: whole footprints against predicted ones, at the times of the grid (the
 //! original's `CollisionChecker`).
 //!
-//! Every obstacle is a box at each time, made once. Which boxes a longitudinal curve comes near to at all is found once
-//! for all its pairs; only those are held against the footprints, circles first.
+//! Every obstacle is a box at each time, made once. Which boxes a longitudinal curve comes near to at all, and when, is
+//! found once for all its pairs; only those are held against the footprints, circles first.
 
 use super::combine::{LongitudinalTrack, Point};
-use super::grid::TIMES;
+use super::grid::{SAMPLES, Series, TIMES};
 use super::prediction::pose_at;
 use crate::frame::{Obstacle, ObstacleId};
-use crate::geometry::{Pose, Vec2};
+use crate::geometry::{Pose, Vec2, cross};
 use crate::vehicle::VehicleParams;
 
 /// Room before and behind an obstacle, m, and to its sides (`lon_collision_buffer`, `lat_collision_buffer`).
 const LENGTHWISE: f64 = 2.0;
 const SIDEWAYS: f64 = 0.1;
 
-/// A rectangle with a direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct GrownBox {
-    center: Vec2,
-    forward: Vec2,
+/// The box around an obstacle's outline, with the room that is kept, as it moves.
+#[derive(Clone, Debug, PartialEq)]
+struct MovingBox {
+    id: ObstacleId,
     /// Half its length and width, m.
     half: (f64, f64),
     /// Radius of the circle around it, m.
     radius: f64,
-    id: ObstacleId,
+    /// Its middle and its direction at the times of the grid.
+    x: Series,
+    y: Series,
+    forward: [Vec2; SAMPLES],
 }
 
-/// The box around an obstacle's outline in its own frame, with the room that is kept.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Outline {
-    middle: Vec2,
-    half: (f64, f64),
-    id: ObstacleId,
-}
-
-impl Outline {
-    fn of(obstacle: &Obstacle) -> Self {
+impl MovingBox {
+    /// Of an obstacle, `delay` seconds later than the times of the grid.
+    fn of(obstacle: &Obstacle, delay: f64) -> Self {
         let (mut low, mut high) = (Vec2::repeat(f64::MAX), Vec2::repeat(-f64::MAX));
         for vertex in obstacle.shape.vertices() {
             (low, high) = (low.inf(vertex), high.sup(vertex));
         }
-        let half = (high - low) / 2.0;
-        Self {
-            middle: (low + high) / 2.0,
-            half: (half.x + LENGTHWISE, half.y + SIDEWAYS),
+        let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
+        let half = (half.x + LENGTHWISE, half.y + SIDEWAYS);
+        let mut moving = Self {
             id: obstacle.id,
+            half,
+            radius: Vec2::new(half.0, half.1).norm(),
+            x: [0.0; SAMPLES],
+            y: [0.0; SAMPLES],
+            forward: [Vec2::x(); SAMPLES],
+        };
+        let mut place = 0;
+        for (k, t) in TIMES.iter().enumerate() {
+            let pose = pose_at(&obstacle.prediction, t + delay, &mut place).unwrap_or(obstacle.pose);
+            moving.put(k, pose, middle);
         }
+        moving
     }
 
-    fn at(&self, pose: Pose) -> GrownBox {
+    fn put(&mut self, k: usize, pose: Pose, middle: Vec2) {
         let forward = pose.forward();
         let left = Vec2::new(-forward.y, forward.x);
-        GrownBox {
-            center: pose.position() + forward * self.middle.x + left * self.middle.y,
-            forward,
-            half: self.half,
-            radius: Vec2::new(self.half.0, self.half.1).norm(),
-            id: self.id,
-        }
+        let center = pose.position() + forward * middle.x + left * middle.y;
+        (self.x[k], self.y[k], self.forward[k]) = (center.x, center.y, forward);
     }
 }
 
@@ -82,62 +82,44 @@ impl Footprint {
         }
     }
 
-    /// Whether it meets a box with the rear axle at `position`; touching counts.
-    fn meets(&self, position: Vec2, forward: Vec2, other: &GrownBox) -> bool {
-        let d = other.center - position - forward * self.ahead;
+    /// Whether it meets a box at a time of the grid with the rear axle at `position`; touching counts.
+    #[inline]
+    fn meets(&self, (position, forward): (Vec2, Vec2), other: &MovingBox, k: usize) -> bool {
+        let d = Vec2::new(other.x[k], other.y[k]) - position - forward * self.ahead;
         let reach = self.radius + other.radius;
-        if d.norm_squared() > reach * reach {
-            return false;
-        }
-        let cos = forward.dot(&other.forward).abs();
-        let sin = (forward.x * other.forward.y - forward.y * other.forward.x).abs();
-        let along = |axis: Vec2| (axis.dot(&d).abs(), (axis.x * d.y - axis.y * d.x).abs());
-        let (own, its) = (along(forward), along(other.forward));
-        own.0 <= self.half.0 + other.half.0 * cos + other.half.1 * sin
-            && own.1 <= self.half.1 + other.half.0 * sin + other.half.1 * cos
-            && its.0 <= other.half.0 + self.half.0 * cos + self.half.1 * sin
-            && its.1 <= other.half.1 + self.half.0 * sin + self.half.1 * cos
+        d.norm_squared() <= reach * reach && self.overlaps(forward, d, other.forward[k], other.half)
+    }
+
+    /// Whether it overlaps a box whose middle is `d` away from its own: no axis of either keeps them apart. That across
+    /// the own direction is tried first, because most boxes near a car are beside it.
+    fn overlaps(&self, forward: Vec2, d: Vec2, other: Vec2, half: (f64, f64)) -> bool {
+        let cos = forward.dot(&other).abs();
+        let sin = cross(forward, other).abs();
+        cross(forward, d).abs() <= self.half.1 + half.0 * sin + half.1 * cos
+            && forward.dot(&d).abs() <= self.half.0 + half.0 * cos + half.1 * sin
+            && other.dot(&d).abs() <= half.0 + self.half.0 * cos + self.half.1 * sin
+            && cross(other, d).abs() <= half.1 + self.half.0 * sin + self.half.1 * cos
     }
 }
 
 /// Every obstacle at every time of the grid.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CollisionEnvironment {
-    /// Per time the boxes, each time as many.
-    frames: Vec<Vec<GrownBox>>,
+    boxes: Vec<MovingBox>,
 }
 
-/// The boxes that a longitudinal curve comes near to, by time.
+/// The boxes that a longitudinal curve comes near to: their places, and the first and the last time at which it does.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Near {
-    /// Per point of the curve where its boxes begin.
-    starts: Vec<usize>,
-    boxes: Vec<GrownBox>,
+    boxes: Vec<(usize, (usize, usize))>,
 }
 
 impl CollisionEnvironment {
     /// The obstacles that are not ignored, `delay` seconds later than the times of the grid.
     pub fn new(obstacles: &[Obstacle], delay: f64, ignored: impl Fn(&Obstacle) -> bool) -> Self {
-        let kept: Vec<(&Obstacle, Outline)> = obstacles
-            .iter()
-            .filter(|obstacle| !ignored(obstacle))
-            .map(|obstacle| (obstacle, Outline::of(obstacle)))
-            .collect();
-        let standing: Vec<GrownBox> = kept
-            .iter()
-            .map(|(obstacle, outline)| outline.at(obstacle.pose))
-            .collect();
-        let mut places = vec![0; kept.len()];
-        let mut frame = |t: &f64| -> Vec<GrownBox> {
-            let boxes = kept.iter().zip(&standing).zip(&mut places);
-            boxes
-                .map(|(((obstacle, outline), standing), place)| {
-                    pose_at(&obstacle.prediction, t + delay, place).map_or(*standing, |pose| outline.at(pose))
-                })
-                .collect()
-        };
+        let kept = obstacles.iter().filter(|obstacle| !ignored(obstacle));
         Self {
-            frames: TIMES.iter().map(&mut frame).collect(),
+            boxes: kept.map(|obstacle| MovingBox::of(obstacle, delay)).collect(),
         }
     }
 
@@ -150,40 +132,50 @@ impl CollisionEnvironment {
         ego: &Footprint,
         near: &mut Near,
     ) {
-        near.starts.clear();
         near.boxes.clear();
-        let around = largest_offset + ego.ahead + ego.radius;
-        for (position, frame) in track.positions().zip(&self.frames) {
-            near.starts.push(near.boxes.len());
-            let comes_near = |other: &&GrownBox| {
-                let reach = around + other.radius;
-                (other.center - position).norm_squared() <= reach * reach
-            };
-            near.boxes.extend(frame.iter().filter(comes_near));
+        let (xs, ys) = track.positions();
+        let mut is_near = [false; SAMPLES];
+        let is_near = &mut is_near[..xs.len()];
+        for (place, other) in self.boxes.iter().enumerate() {
+            let reach = largest_offset + ego.ahead + ego.radius + other.radius;
+            let mut is_ever = false;
+            for (k, is_near) in is_near.iter_mut().enumerate() {
+                let (dx, dy) = (other.x[k] - xs[k], other.y[k] - ys[k]);
+                *is_near = dx * dx + dy * dy <= reach * reach;
+                is_ever |= *is_near;
+            }
+            if !is_ever {
+                continue;
+            }
+            let first = is_near.iter().position(|is_near| *is_near);
+            let last = is_near.iter().rposition(|is_near| *is_near);
+            near.boxes.extend(first.zip(last).map(|times| (place, times)));
         }
-        near.starts.push(near.boxes.len());
     }
-}
 
-impl Near {
-    /// The first obstacle that a trajectory touches.
-    pub fn touched(&self, points: &[Point], ego: &Footprint) -> Option<ObstacleId> {
-        self.touched_at(points.len(), ego, |k| (points[k].position, points[k].forward))
+    /// The obstacle that a trajectory touches first, of those that it comes near to.
+    pub fn touched(&self, near: &Near, points: &[Point], ego: &Footprint) -> Option<ObstacleId> {
+        self.touched_at(near, points.len(), ego, |k| {
+            (points[k].position, points[k].forward)
+        })
     }
 
     /// The same for a trajectory of so many points that tells place and heading of those that matter.
     pub(super) fn touched_at(
         &self,
+        near: &Near,
         points: usize,
         ego: &Footprint,
         place: impl Fn(usize) -> (Vec2, Vec2),
     ) -> Option<ObstacleId> {
-        let spans = self.starts.windows(2).take(points).enumerate();
-        spans.filter(|(_, span)| span[0] < span[1]).find_map(|(k, span)| {
-            let (position, forward) = place(k);
-            let meets = |other: &&GrownBox| ego.meets(position, forward, other);
-            let met = self.boxes[span[0]..span[1]].iter().find(meets);
-            met.map(|other| other.id)
-        })
+        let (mut until, mut touched) = (points, None);
+        for (other, (first, last)) in &near.boxes {
+            let other = &self.boxes[*other];
+            let mut times = *first..until.min(last + 1);
+            if let Some(k) = times.find(|k| ego.meets(place(*k), other, *k)) {
+                (until, touched) = (k, Some(other.id));
+            }
+        }
+        touched
     }
 }

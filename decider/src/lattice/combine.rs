@@ -3,24 +3,31 @@
 //! The line's point at each time belongs to the longitudinal curve alone and is found once for all its pairs. A point is
 //! checked without angles; these are found for the trajectory that is driven.
 
+use super::constraints::{Violation, keeps_limits, violation};
 use super::cost::Sampled;
 use super::curve::Curve;
 use super::grid::{SAMPLES, Series, TIMES};
 use super::line_table::LineTable;
 use crate::decision::{PathPoint, TrajectoryPoint};
-use crate::geometry::frenet::{Foot, Offset};
+use crate::geometry::frenet::Offset;
 use crate::geometry::{Pose, Vec2, angle};
 
 /// A car that stands still moves at this speed, m/s, so that it has a direction.
 const LEAST_SPEED: f64 = 1e-6;
 
-/// A longitudinal curve on its line, as far as the line leads. Beyond that its numbers are 0.
+/// A longitudinal curve on its line, as far as the line leads. What its series hold beyond that means nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LongitudinalTrack {
-    /// The line's points under the curve, with the line's direction.
-    feet: Vec<(Foot, Vec2)>,
-    /// Ways along the line since the start, m.
+    /// How many times of the grid come before the end of the line.
+    len: usize,
+    /// Stations under the curve.
+    s: Series,
+    /// Ways since the start, m, beyond the end of the line, too.
     ways: Series,
+    /// The line's points, and its direction there.
+    x: Series,
+    y: Series,
+    forward: [Vec2; SAMPLES],
     /// Curvature of the line and its change along it.
     kappa: Series,
     dkappa: Series,
@@ -31,23 +38,24 @@ pub struct LongitudinalTrack {
 
 impl Default for LongitudinalTrack {
     fn default() -> Self {
-        Self::over(Vec::with_capacity(SAMPLES))
-    }
-}
-
-impl LongitudinalTrack {
-    fn over(feet: Vec<(Foot, Vec2)>) -> Self {
-        let [ways, kappa, dkappa, v, a] = [[0.0; SAMPLES]; 5];
+        let [s, ways, x, y, kappa, dkappa, v, a] = [[0.0; SAMPLES]; 8];
+        let forward = [Vec2::x(); SAMPLES];
         Self {
-            feet,
+            len: 0,
+            s,
             ways,
+            x,
+            y,
+            forward,
             kappa,
             dkappa,
             v,
             a,
         }
     }
+}
 
+impl LongitudinalTrack {
     /// Lays a curve on a line. Where the curve goes back the car stands.
     pub fn new(curve: &Sampled, line: &LineTable) -> Self {
         let mut track = Self::default();
@@ -57,27 +65,29 @@ impl LongitudinalTrack {
 
     /// The same in place of what was laid before.
     pub fn lay(&mut self, curve: &Sampled, line: &LineTable) {
-        self.feet.clear();
-        *self = Self::over(std::mem::take(&mut self.feet));
-        let start = curve.at[0][0];
-        let (mut before, mut place) = (f64::NEG_INFINITY, 0);
-        for (k, [s, v, a, _]) in curve.at.iter().enumerate() {
-            let s = s.max(before);
+        let mut place = 0;
+        self.len = 0;
+        self.ways = curve.ways;
+        for (k, way) in curve.ways.iter().enumerate() {
+            let s = curve.s[0] + way;
             if s > line.end() {
                 break;
             }
-            before = s;
-            let (foot, forward) = line.at_next(s, &mut place);
-            self.ways[k] = s - start;
-            (self.kappa[k], self.dkappa[k]) = (foot.kappa, foot.dkappa);
-            (self.v[k], self.a[k]) = (v.max(LEAST_SPEED), *a);
-            self.feet.push((foot, forward));
+            let at = line.at_next(s, &mut place);
+            self.s[k] = s;
+            (self.x[k], self.y[k]) = (at.position.x, at.position.y);
+            self.forward[k] = at.forward;
+            (self.kappa[k], self.dkappa[k]) = (at.kappa, at.dkappa);
+            (self.v[k], self.a[k]) = (curve.v[k].max(LEAST_SPEED), curve.a[k]);
+            self.len = k + 1;
         }
+        // So that no bend is left over there whose centre could be passed.
+        self.kappa[self.len..].fill(0.0);
     }
 
-    /// The line's points under it.
-    pub(super) fn positions(&self) -> impl Iterator<Item = Vec2> + '_ {
-        self.feet.iter().map(|(foot, _)| foot.pose.position())
+    /// The line's points under it, as far as it leads: `x`, then `y`.
+    pub(super) fn positions(&self) -> (&[f64], &[f64]) {
+        (&self.x[..self.len], &self.y[..self.len])
     }
 }
 
@@ -87,7 +97,7 @@ impl LongitudinalTrack {
 pub(super) struct Motions {
     len: usize,
     /// Offset from the line, its first and second derivative by station.
-    lateral: [Series; 3],
+    pub(super) lateral: [Series; 3],
     /// Cosine and sine of the heading error.
     cos: Series,
     sin: Series,
@@ -126,7 +136,7 @@ impl Motions {
             (self.cos[k], self.sin[k]) = offset.turn;
             (self.v[k], self.a[k]) = offset.speed(track.v[k], track.a[k]);
         }
-        self.len = if is_before_centre { track.feet.len() } else { 0 };
+        self.len = if is_before_centre { track.len } else { 0 };
     }
 
     /// Number of times.
@@ -134,18 +144,27 @@ impl Motions {
         self.len
     }
 
+    /// What the motion does that it may not, where the line leads on to its end.
+    pub(super) fn violation(&self) -> Option<Violation> {
+        let is_whole = self.len == SAMPLES;
+        if is_whole && keeps_limits(&self.v, &self.a, &self.kappa) {
+            return None;
+        }
+        violation(self.dynamics())
+    }
+
     /// Time, speed, acceleration and curvature.
-    pub(super) fn dynamics(&self) -> impl Iterator<Item = [f64; 4]> + '_ {
+    fn dynamics(&self) -> impl Iterator<Item = [f64; 4]> + '_ {
         (0..self.len).map(|k| [TIMES[k], self.v[k], self.a[k], self.kappa[k]])
     }
 
     /// Place of the rear axle and heading at a time.
     #[inline]
     pub(super) fn place(&self, track: &LongitudinalTrack, k: usize) -> (Vec2, Vec2) {
-        let (foot, along) = &track.feet[k];
+        let along = track.forward[k];
         let (l, cos, sin) = (self.lateral[0][k], self.cos[k], self.sin[k]);
         (
-            Vec2::new(foot.pose.x - l * along.y, foot.pose.y + l * along.x),
+            Vec2::new(track.x[k] - l * along.y, track.y[k] + l * along.x),
             Vec2::new(along.x * cos - along.y * sin, along.y * cos + along.x * sin),
         )
     }
@@ -161,7 +180,7 @@ impl Motions {
                 kappa: self.kappa[k],
                 v: self.v[k],
                 a: self.a[k],
-                s: track.feet[k].0.s,
+                s: track.s[k],
                 l: self.lateral[0][k],
             }
         })
@@ -236,13 +255,17 @@ pub fn path(line: &LineTable, lateral: &Curve, from: f64, to: f64) -> Vec<PathPo
     let mut points: Vec<PathPoint> = Vec::new();
     let (mut s, mut place) = (from, 0);
     while s <= to.min(line.end()) {
-        let (foot, forward) = line.at_next(s, &mut place);
+        let at = line.at_next(s, &mut place);
         let [l, dl, ddl, _] = lateral.at(s - from);
-        let Some(offset) = Offset::new(foot.kappa, foot.dkappa, [l, dl, ddl]) else {
+        let Some(offset) = Offset::new(at.kappa, at.dkappa, [l, dl, ddl]) else {
             break;
         };
-        let theta = angle::wrap(foot.pose.theta + libm::atan2(offset.turn.1, offset.turn.0));
-        let pose = Pose::new(foot.pose.x - l * forward.y, foot.pose.y + l * forward.x, theta);
+        let theta = angle::wrap(at.theta + libm::atan2(offset.turn.1, offset.turn.0));
+        let pose = Pose::new(
+            at.position.x - l * at.forward.y,
+            at.position.y + l * at.forward.x,
+            theta,
+        );
         let moved = |last: &PathPoint| last.distance + (pose.position() - last.pose.position()).norm();
         points.push(PathPoint {
             distance: points.last().map_or(0.0, moved),

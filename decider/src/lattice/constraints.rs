@@ -1,7 +1,7 @@
 //! What a motion may not do (the original's `ConstraintChecker1d` and `ConstraintChecker`).
 
 use super::curve::Curve;
-use super::grid::{HORIZON, TIMES};
+use super::grid::{HORIZON, SAMPLES, Series, TIMES};
 
 /// Speeds, m/s.
 const SPEED: (f64, f64) = (-0.1, 40.0);
@@ -75,7 +75,8 @@ pub fn violation(points: impl Iterator<Item = [f64; 4]>) -> Option<Violation> {
         }
     };
     let of_pair = |([t0, _, a0, _], [t1, v, a1, kappa]): (Dynamics, Dynamics)| {
-        if !inside((a1 - a0) / (t1 - t0), JERK) {
+        let dt = t1 - t0;
+        if !inside(a1 - a0, (JERK.0 * dt, JERK.1 * dt)) {
             Some(Violation::Jerk)
         } else if !inside(v * v * kappa, (-LATERAL_ACCELERATION, LATERAL_ACCELERATION)) {
             Some(Violation::LateralAcceleration)
@@ -97,7 +98,42 @@ pub fn violation(points: impl Iterator<Item = [f64; 4]>) -> Option<Violation> {
     between
 }
 
+/// Whether [`violation`] finds nothing in a trajectory of speed, acceleration and curvature at all times of the grid. Most
+/// trajectories are fine, and this looks at several times at once.
+pub(super) fn keeps_limits(v: &Series, a: &Series, kappa: &Series) -> bool {
+    let inside = |value: f64, (low, high): (f64, f64)| (value >= low) & (value <= high);
+    let mut keeps = true;
+    for k in 0..SAMPLES {
+        keeps &= inside(v[k], SPEED) & inside(a[k], ACCELERATION) & inside(kappa[k], (-KAPPA, KAPPA));
+    }
+    for k in 1..SAMPLES {
+        let dt = TIMES[k] - TIMES[k - 1];
+        let across = v[k] * v[k] * kappa[k];
+        keeps &= inside(a[k] - a[k - 1], (JERK.0 * dt, JERK.1 * dt))
+            & inside(across, (-LATERAL_ACCELERATION, LATERAL_ACCELERATION));
+    }
+    keeps
+}
+
 /// Whether a curvature is one that the car can drive.
 pub(super) fn is_steerable(kappa: f64) -> bool {
     kappa.abs() <= KAPPA
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_look_at_all_times_finds_what_a_look_at_each_finds(
+            v in 0.0..39.9, a in -5.9..3.9, kappa in -0.19..0.19, k in 0..SAMPLES, which in 0..3_usize, by in -8.0..8.0,
+        ) {
+            let mut of = [[v; SAMPLES], [a; SAMPLES], [f64::clamp(kappa, -3.9 / (v * v), 3.9 / (v * v)); SAMPLES]];
+            of[which][k] += [by, 0.2 * by, 0.05 * by][which];
+            let points = (0..SAMPLES).map(|k| [TIMES[k], of[0][k], of[1][k], of[2][k]]);
+            prop_assert_eq!(keeps_limits(&of[0], &of[1], &of[2]), violation(points).is_none());
+        }
+    }
 }

@@ -4,7 +4,7 @@
 //! that only the lateral acceleration is left to be found for each pair.
 
 use super::curve::Curve;
-use super::grid::{SAMPLES, TIMES};
+use super::grid::{SAMPLES, Series, TIMES, largest_size};
 use super::line_table::LineTable;
 
 /// Keeps sums that are divided by from 0.
@@ -42,8 +42,14 @@ fn soft_maximum(values: impl Iterator<Item = f64>) -> f64 {
 /// A longitudinal curve at the times of the grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sampled {
-    /// Station, speed, acceleration and jerk.
-    pub at: [[f64; 4]; SAMPLES],
+    /// Station, m.
+    pub(super) s: Series,
+    /// Its first, second and third derivative by time.
+    pub(super) v: Series,
+    pub(super) a: Series,
+    pub(super) jerk: Series,
+    /// Way since the start, m. Where the curve goes back the car stands.
+    pub(super) ways: Series,
     /// Way to the end of the curve, m.
     pub way: f64,
 }
@@ -51,10 +57,20 @@ pub struct Sampled {
 impl Sampled {
     /// Samples a curve.
     pub fn new(curve: &Curve) -> Self {
-        let at = TIMES.map(|t| curve.at(t));
+        let [mut s, mut v, mut a, mut jerk, mut ways] = [[0.0; SAMPLES]; 5];
+        let mut farthest = 0.0_f64;
+        for (k, t) in TIMES.iter().enumerate() {
+            [s[k], v[k], a[k], jerk[k]] = curve.at(*t);
+            farthest = farthest.max(s[k] - s[0]);
+            ways[k] = farthest;
+        }
         Self {
-            way: curve.end() - at[0][0],
-            at,
+            way: curve.end() - s[0],
+            s,
+            v,
+            a,
+            jerk,
+            ways,
         }
     }
 }
@@ -74,26 +90,21 @@ pub struct LongitudinalCosts {
 
 impl LongitudinalCosts {
     /// The costs of a curve. `blocked` is what the path-time graph holds at the times of the grid.
-    pub fn new(
-        curve: &Sampled,
-        guide: &[f64; SAMPLES],
-        blocked: &[Vec<(f64, f64)>],
-        line: &LineTable,
-    ) -> Self {
+    pub fn new(curve: &Sampled, guide: &[f64; SAMPLES], blocked: &Blocked, line: &LineTable) -> Self {
         let mut place = 0;
-        let centripetal = |[s, v, ..]: &[f64; 4]| v * v * line.kappa(*s, &mut place);
+        let centripetal = |(s, v): (&f64, &f64)| v * v * line.kappa(*s, &mut place);
         Self {
             objective: objective(curve, guide),
-            jerk: soft_maximum(curve.at.iter().map(|[.., jerk]| jerk / JERK_SCALE)),
+            jerk: soft_maximum(curve.jerk.iter().map(|jerk| jerk / JERK_SCALE)),
             collision: collision(curve, blocked),
-            centripetal: soft_maximum(curve.at.iter().map(centripetal)),
+            centripetal: soft_maximum(curve.s.iter().zip(&curve.v).map(centripetal)),
         }
     }
 }
 
 fn objective(curve: &Sampled, guide: &[f64; SAMPLES]) -> f64 {
     let (mut off, mut weights) = (0.0, 0.0);
-    for ((t, [_, v, ..]), wanted) in TIMES.iter().zip(&curve.at).zip(guide) {
+    for ((t, v), wanted) in TIMES.iter().zip(&curve.v).zip(guide) {
         off += t * t * (wanted - v).abs();
         weights += t * t;
     }
@@ -101,20 +112,57 @@ fn objective(curve: &Sampled, guide: &[f64; SAMPLES]) -> f64 {
     (SPEED_AND_WAY.0 * speed + SPEED_AND_WAY.1 * way) / (SPEED_AND_WAY.0 + SPEED_AND_WAY.1)
 }
 
-fn collision(curve: &Sampled, blocked: &[Vec<(f64, f64)>]) -> f64 {
-    let costs = curve.at.iter().zip(blocked).flat_map(|([s, ..], intervals)| {
-        intervals.iter().map(move |(low, high)| {
-            let apart = (low - YIELD_ROOM - s).max(s - (high + OVERTAKE_ROOM));
-            if apart <= 0.0 {
+/// What lies in the way along the line, obstacle by obstacle, at the times of the grid.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Blocked {
+    /// Per obstacle from and to where, m; infinitely far away while it is not there.
+    rows: Vec<[Series; 2]>,
+}
+
+impl Blocked {
+    /// Of the obstacles whose intervals are told, each by time of the grid; `None` while it is not there.
+    pub fn new<I: Iterator<Item = Option<(f64, f64)>>>(obstacles: impl Iterator<Item = I>) -> Self {
+        let row = |intervals: I| {
+            let mut row = [[f64::INFINITY; SAMPLES]; 2];
+            for (k, interval) in intervals.take(SAMPLES).enumerate() {
+                (row[0][k], row[1][k]) = interval.unwrap_or((f64::INFINITY, f64::INFINITY));
+            }
+            row
+        };
+        Self {
+            rows: obstacles.map(row).collect(),
+        }
+    }
+}
+
+/// Obstacle by obstacle: most of them come nowhere near to the curve, which is seen without a branch.
+fn collision(curve: &Sampled, blocked: &Blocked) -> f64 {
+    let (mut squares, mut sizes) = (0.0, 0.0);
+    let mut apart = [0.0; SAMPLES];
+    for [low, high] in &blocked.rows {
+        let mut comes_near = false;
+        for k in 0..SAMPLES {
+            let (before, beyond) = (
+                low[k] - YIELD_ROOM - curve.s[k],
+                curve.s[k] - (high[k] + OVERTAKE_ROOM),
+            );
+            apart[k] = if before > beyond { before } else { beyond };
+            comes_near |= apart[k] <= NO_MORE * SLOPE;
+        }
+        if !comes_near {
+            continue;
+        }
+        for apart in apart.iter().filter(|apart| **apart <= NO_MORE * SLOPE) {
+            let cost = if *apart <= 0.0 {
                 1.0
-            } else if apart > NO_MORE * SLOPE {
-                0.0
             } else {
                 libm::exp(-apart * apart / (2.0 * SLOPE * SLOPE))
-            }
-        })
-    });
-    soft_maximum(costs)
+            };
+            squares += cost * cost;
+            sizes += cost;
+        }
+    }
+    squares / (sizes + EPSILON)
 }
 
 /// A lateral curve with the cost of its offset, added up metre by metre.
@@ -162,16 +210,17 @@ impl LateralProfile {
 
 /// The largest acceleration across the line of a pair, m/s².
 pub fn lateral_comfort(longitudinal: &Sampled, lateral: &Curve) -> f64 {
-    let start = longitudinal.at[0][0];
     let mut across = [[0.0; SAMPLES]; 3];
-    lateral.sample(&longitudinal.at.map(|[s, ..]| s - start), &mut across);
-    let [_, slopes, bends] = &across;
-    let mut largest = 0.0;
-    for (([_, v, a, _], dl), ddl) in longitudinal.at.iter().zip(slopes).zip(bends) {
-        let across = (ddl * v * v + dl * a).abs();
-        if across > largest {
-            largest = across;
-        }
+    lateral.sample(&longitudinal.ways, &mut across);
+    comfort_of(longitudinal, &across)
+}
+
+/// The same for a lateral curve that is sampled at the ways of the longitudinal one.
+pub(super) fn comfort_of(longitudinal: &Sampled, [_, slopes, bends]: &[Series; 3]) -> f64 {
+    let Sampled { v, a, .. } = longitudinal;
+    let mut across = [0.0; SAMPLES];
+    for k in 0..SAMPLES {
+        across[k] = bends[k] * v[k] * v[k] + slopes[k] * a[k];
     }
-    largest
+    largest_size(&across)
 }

@@ -1,11 +1,12 @@
 //! The queue of pairs, cheapest first (the original's `TrajectoryEvaluator`).
 //!
 //! What a longitudinal curve costs alone bounds the cost of its pairs from below. So the pairs of a curve are made only
-//! when that curve comes to the head of the queue: in most ticks a few of them.
+//! when that curve comes to the head of the queue: in most ticks a few of them. From then on the curve waits in the queue
+//! with the cheapest of its pairs that is left.
 
 use super::config::Weights;
 use super::constraints::keeps_longitudinal_limits;
-use super::cost::{LateralProfile, LongitudinalCosts, Sampled, lateral_comfort};
+use super::cost::{Blocked, LateralProfile, LongitudinalCosts, Sampled, lateral_comfort};
 use super::curve::Curve;
 use super::grid::{HORIZON, SAMPLES};
 use super::line_table::LineTable;
@@ -51,12 +52,12 @@ pub fn keeps_stop(curve: &Curve, stop_s: Option<f64>) -> bool {
     stop_s.is_none_or(|stop_s| curve.at(0.0)[0] >= stop_s || curve.at(HORIZON)[0] + STOP_BUFFER <= stop_s)
 }
 
-/// What is in the queue: all pairs of a curve, or one.
+/// What is in the queue: a curve whose pairs are not made yet, or the cheapest of its pairs that are left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Entry {
     cost: f64,
     longitudinal: usize,
-    /// `None`: all of them.
+    /// `None`: not made yet.
     lateral: Option<usize>,
 }
 
@@ -82,9 +83,12 @@ impl Ord for Entry {
 struct Candidate {
     /// Its place in the bundle.
     place: usize,
-    sampled: Sampled,
+    /// Not in place: it is much to move when the candidates become more.
+    sampled: Box<Sampled>,
     /// What it costs alone, weighted.
     costs: LongitudinalCosts,
+    /// Its pairs that are left, cost and lateral curve, the cheapest last.
+    left: Vec<(f64, usize)>,
 }
 
 /// The pairs of two bundles, cheapest first; among equals the first in the bundles.
@@ -104,7 +108,7 @@ pub struct Surroundings<'a> {
     /// The guide speed.
     pub guide: &'a [f64; SAMPLES],
     /// What the path-time graph holds at the times of the grid.
-    pub blocked: &'a [Vec<(f64, f64)>],
+    pub blocked: &'a Blocked,
     /// The line.
     pub line: &'a LineTable,
 }
@@ -132,7 +136,7 @@ impl<'a> Evaluator<'a> {
     }
 
     fn add(&mut self, place: usize, curve: &Curve, around: &Surroundings) {
-        let sampled = Sampled::new(curve);
+        let sampled = Box::new(Sampled::new(curve));
         let costs = LongitudinalCosts::new(&sampled, around.guide, around.blocked, around.line);
         let costs = weighted(&self.weights, &costs);
         self.queue.push(Reverse(Entry {
@@ -144,6 +148,7 @@ impl<'a> Evaluator<'a> {
             place,
             sampled,
             costs,
+            left: Vec::new(),
         });
     }
 
@@ -159,18 +164,35 @@ impl<'a> Evaluator<'a> {
 
     /// Samples of a longitudinal curve by its place in the bundle.
     pub fn sampled(&self, place: usize) -> Option<&Sampled> {
-        self.candidate(place).map(|candidate| &candidate.sampled)
+        self.candidate(place).map(|candidate| &*candidate.sampled)
     }
 
     /// What a pair's cost is made of.
     pub fn costs(&self, pair: &Pair) -> Option<PairCosts> {
         let candidate = self.candidate(pair.longitudinal)?;
-        let [offset, comfort] = self.lateral_costs(&candidate.sampled, self.laterals.get(pair.lateral)?);
-        Some(PairCosts {
+        let comfort = lateral_comfort(&candidate.sampled, &self.laterals.get(pair.lateral)?.curve);
+        Some(self.pair_costs(candidate, pair.lateral, comfort))
+    }
+
+    /// What a pair's cost is made of, whose largest acceleration across the line is `comfort`.
+    fn pair_costs(&self, candidate: &Candidate, lateral: usize, comfort: f64) -> PairCosts {
+        let offset = self.laterals[lateral].offset_cost(candidate.sampled.way);
+        PairCosts {
             longitudinal: candidate.costs,
-            offset,
-            comfort,
-        })
+            offset: offset * self.weights.lat_offset,
+            comfort: comfort * self.weights.lat_comfort,
+        }
+    }
+
+    /// The same for a survivor by its place among them.
+    pub(super) fn costs_of(&self, survivor: usize, lateral: usize, comfort: f64) -> PairCosts {
+        self.pair_costs(&self.candidates[survivor], lateral, comfort)
+    }
+
+    /// The survivors' places in the bundle, with their samples.
+    pub(super) fn sampled_survivors(&self) -> impl Iterator<Item = (usize, &Sampled)> + '_ {
+        let survivors = self.candidates.iter();
+        survivors.map(|candidate| (candidate.place, &*candidate.sampled))
     }
 
     fn candidate(&self, place: usize) -> Option<&Candidate> {
@@ -180,12 +202,16 @@ impl<'a> Evaluator<'a> {
         found.ok().map(|k| &self.candidates[k])
     }
 
-    /// What a lateral curve adds to a longitudinal one: offset and comfort, weighted.
-    fn lateral_costs(&self, sampled: &Sampled, lateral: &LateralProfile) -> [f64; 2] {
-        [
-            lateral.offset_cost(sampled.way) * self.weights.lat_offset,
-            lateral_comfort(sampled, &lateral.curve) * self.weights.lat_comfort,
-        ]
+    /// Makes the pairs of a survivor.
+    fn open(&mut self, survivor: usize) {
+        let candidate = &self.candidates[survivor];
+        let cost = |(lateral, profile): (usize, &LateralProfile)| {
+            let comfort = lateral_comfort(&candidate.sampled, &profile.curve);
+            (self.pair_costs(candidate, lateral, comfort).sum(), lateral)
+        };
+        let mut pairs: Vec<(f64, usize)> = self.laterals.iter().enumerate().map(cost).collect();
+        pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)));
+        self.candidates[survivor].left = pairs;
     }
 }
 
@@ -195,21 +221,23 @@ impl Iterator for Evaluator<'_> {
     fn next(&mut self) -> Option<Pair> {
         loop {
             let Reverse(entry) = self.queue.pop()?;
-            let candidate = &self.candidates[entry.longitudinal];
+            if entry.lateral.is_none() {
+                self.open(entry.longitudinal);
+            }
+            let candidate = &mut self.candidates[entry.longitudinal];
+            if let Some((cost, lateral)) = candidate.left.pop() {
+                self.queue.push(Reverse(Entry {
+                    cost,
+                    longitudinal: entry.longitudinal,
+                    lateral: Some(lateral),
+                }));
+            }
             if let Some(lateral) = entry.lateral {
                 return Some(Pair {
                     longitudinal: candidate.place,
                     lateral,
                     cost: entry.cost,
                 });
-            }
-            for (lateral, profile) in self.laterals.iter().enumerate() {
-                let [offset, comfort] = self.lateral_costs(&candidate.sampled, profile);
-                self.queue.push(Reverse(Entry {
-                    cost: entry.cost + offset + comfort,
-                    longitudinal: entry.longitudinal,
-                    lateral: Some(lateral),
-                }));
             }
         }
     }

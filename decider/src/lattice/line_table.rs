@@ -2,7 +2,7 @@
 
 use crate::geometry::angle::turned;
 use crate::geometry::frenet::Foot;
-use crate::geometry::{Pose, Vec2, angle};
+use crate::geometry::{Pose, Vec2, angle, cross};
 use crate::reference_line::{LineQuery, SlPoint};
 
 /// Distance between the points that a smooth line is sampled at, m: between them an arc is exact to a tenth of a
@@ -11,6 +11,9 @@ const SPACING: f64 = 0.5;
 
 /// Half the length over which the change of a smooth line's curvature is taken, m.
 const BEND_STEP: f64 = 0.5;
+
+/// A point that is nearer to the centre of its bend than this share of the radius is beside no single place.
+const NEAR_CENTRE: f64 = 0.5;
 
 /// What belongs to a station of a smooth line, exactly.
 pub fn foot_on<L: LineQuery + ?Sized>(line: &L, s: f64) -> Foot {
@@ -21,6 +24,27 @@ pub fn foot_on<L: LineQuery + ?Sized>(line: &L, s: f64) -> Foot {
         pose: Pose::new(at.x, at.y, at.theta),
         kappa: at.kappa,
         dkappa: change / (2.0 * BEND_STEP),
+    }
+}
+
+/// What belongs to a station of a line, its direction as a unit vector too.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct LinePlace {
+    pub(super) position: Vec2,
+    pub(super) theta: f64,
+    pub(super) forward: Vec2,
+    pub(super) kappa: f64,
+    pub(super) dkappa: f64,
+}
+
+impl LinePlace {
+    fn foot(&self, s: f64) -> Foot {
+        Foot {
+            s,
+            pose: Pose::new(self.position.x, self.position.y, self.theta),
+            kappa: self.kappa,
+            dkappa: self.dkappa,
+        }
     }
 }
 
@@ -80,23 +104,36 @@ impl LineTable {
 
     /// What belongs to a station; the ends' beyond them.
     pub fn at(&self, s: f64) -> Foot {
-        self.at_place(self.feet.partition_point(|foot| foot.s < s), s).0
+        let above = self.feet.partition_point(|foot| foot.s < s);
+        let (first, last) = (&self.feet[0], &self.feet[self.feet.len() - 1]);
+        self.at_place(above, s).foot(s.clamp(first.s, last.s))
     }
 
-    /// The same, with the line's direction as a unit vector, for a station at or beyond the last one that was asked for,
-    /// whose place is in `hint`.
-    pub fn at_next(&self, s: f64, hint: &mut usize) -> (Foot, Vec2) {
+    /// The same for a station at or beyond the last one that was asked for, whose place is in `hint`.
+    #[inline]
+    pub(super) fn at_next(&self, s: f64, hint: &mut usize) -> LinePlace {
         while *hint < self.feet.len() && self.feet[*hint].s < s {
             *hint += 1;
         }
         self.at_place(*hint, s)
     }
 
-    fn at_place(&self, above: usize, s: f64) -> (Foot, Vec2) {
-        match (above, self.feet.get(above)) {
-            (_, None) => (self.feet[above - 1], self.forward[above - 1]),
-            (0, Some(first)) => (*first, self.forward[0]),
-            (_, Some(_)) => self.between(above - 1, above, s),
+    #[inline]
+    fn at_place(&self, above: usize, s: f64) -> LinePlace {
+        if above == 0 || above == self.feet.len() {
+            return self.at_point(above.saturating_sub(1));
+        }
+        self.between(above - 1, above, s)
+    }
+
+    fn at_point(&self, k: usize) -> LinePlace {
+        let foot = &self.feet[k];
+        LinePlace {
+            position: foot.pose.position(),
+            theta: foot.pose.theta,
+            forward: self.forward[k],
+            kappa: foot.kappa,
+            dkappa: foot.dkappa,
         }
     }
 
@@ -121,6 +158,16 @@ impl LineTable {
     /// What belongs to a point: on the chord between the neighbours of the nearest of the line's points, which is
     /// extended at the ends.
     pub fn nearest(&self, point: Vec2) -> Foot {
+        let nearest = self.nearest_place(point);
+        let (low, high) = (nearest.saturating_sub(1), (nearest + 1).min(self.feet.len() - 1));
+        let (a, b) = (&self.feet[low], &self.feet[high]);
+        let chord = b.pose.position() - a.pose.position();
+        let along = (point - a.pose.position()).dot(&chord) / chord.norm();
+        self.between(low, high, a.s + along).foot(a.s + along)
+    }
+
+    /// Place of the nearest of the line's points; the first of equals.
+    pub(super) fn nearest_place(&self, point: Vec2) -> usize {
         let mut best = (f64::MAX, 0);
         for (k, foot) in self.feet.iter().enumerate() {
             let distance = (foot.pose.position() - point).norm_squared();
@@ -128,11 +175,7 @@ impl LineTable {
                 best = (distance, k);
             }
         }
-        let (low, high) = (best.1.saturating_sub(1), (best.1 + 1).min(self.feet.len() - 1));
-        let (a, b) = (&self.feet[low], &self.feet[high]);
-        let chord = b.pose.position() - a.pose.position();
-        let along = (point - a.pose.position()).dot(&chord) / chord.norm();
-        self.between(low, high, a.s + along).0
+        best.1
     }
 
     /// Frenet coordinates of a point.
@@ -142,7 +185,34 @@ impl LineTable {
         SlPoint { s: foot.s, l }
     }
 
-    fn between(&self, low: usize, high: usize, s: f64) -> (Foot, Vec2) {
+    /// Roughly where a point lies beside the line: beside the chord to which one comes from that at `hint`, going on in
+    /// one direction while the foot lies beyond. The bulge of half a metre of road is lost.
+    pub(super) fn glance(&self, point: Vec2, hint: &mut usize) -> Option<SlPoint> {
+        let last = self.feet.len() - 2;
+        let share = |k: usize| {
+            let from = self.feet[k].pose.position();
+            let (along, to) = (self.feet[k + 1].pose.position() - from, point - from);
+            let per_square = 1.0 / along.norm_squared();
+            (along.dot(&to) * per_square, cross(along, to) * per_square.sqrt())
+        };
+        let mut k = (*hint).min(last);
+        let (mut t, mut l) = share(k);
+        let direction = if t > 1.0 { 1 } else { -1 };
+        while (direction > 0 && t > 1.0) || (direction < 0 && t < 0.0) {
+            k = k.checked_add_signed(direction).filter(|k| *k <= last)?;
+            (t, l) = share(k);
+        }
+        *hint = k;
+        let (a, b) = (&self.feet[k], &self.feet[k + 1]);
+        let is_single = (a.kappa.abs().max(b.kappa.abs()) * l).abs() < NEAR_CENTRE;
+        is_single.then(|| SlPoint {
+            s: a.s + (b.s - a.s) * t.clamp(0.0, 1.0),
+            l,
+        })
+    }
+
+    #[inline]
+    fn between(&self, low: usize, high: usize, s: f64) -> LinePlace {
         let (a, b) = (&self.feet[low], &self.feet[high]);
         let length = b.s - a.s;
         let share = (s - a.s) / length;
@@ -156,12 +226,12 @@ impl LineTable {
             let bulge = 0.5 * turn * length * share * (share - 1.0);
             (x, y) = (x - bulge * forward.y, y + bulge * forward.x);
         }
-        let foot = Foot {
-            s,
-            pose: Pose::new(x, y, theta),
+        LinePlace {
+            position: Vec2::new(x, y),
+            theta,
+            forward,
             kappa,
             dkappa: mix(a.dkappa, b.dkappa),
-        };
-        (foot, forward)
+        }
     }
 }

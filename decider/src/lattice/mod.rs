@@ -39,7 +39,7 @@ pub use collision::{CollisionEnvironment, Footprint, Near};
 pub use combine::{LongitudinalTrack, Point, combine, path, trajectory};
 pub use config::{LatticeConfig, Weights};
 pub use constraints::{Violation, keeps_lateral_limits, keeps_longitudinal_limits, violation};
-pub use cost::{LateralProfile, LongitudinalCosts, Sampled, lateral_comfort};
+pub use cost::{Blocked, LateralProfile, LongitudinalCosts, Sampled, lateral_comfort};
 pub use curve::{ConstantDeceleration, Curve};
 pub use end_conditions::{EndCondition, cruise, lateral, path_time, stop};
 pub use evaluator::{Evaluator, Pair, PairCosts, Surroundings, Unfit, keeps_stop, total_cost};

@@ -3,8 +3,10 @@
 //! An obstacle is a quadrilateral in the `(t, s)` plane, from where it is when it comes into the lane to where it is when
 //! it leaves it. In the original the corners were lost and the graph was always empty.
 
+use super::cost::Blocked;
 use super::grid::{HORIZON, TIMES};
 use super::lateral_bounds::StaticBox;
+use super::line_table::LineTable;
 use super::prediction::pose_at;
 use crate::frame::{Obstacle, ObstacleId};
 use crate::geometry::{Pose, Vec2};
@@ -25,6 +27,9 @@ const SAME_TIME: f64 = 1e-6;
 
 /// By less than this the lane widens or narrows between two places of a body that are about abreast, m.
 const WIDENING: f64 = 0.2;
+
+/// A glance tells a station to this, m.
+const ROUGHLY: f64 = 0.2;
 
 /// Half-widths of the lane (left, right) at a station, m; `None` where it is not known.
 pub type LaneWidth<'a> = &'a dyn Fn(f64) -> Option<(f64, f64)>;
@@ -99,9 +104,16 @@ struct Extent {
 
 impl PathTimeGraph {
     /// The graph of obstacles from station `s` of the car on.
-    pub fn new(obstacles: &[Obstacle], s: f64, lane_width: LaneWidth, project: Project) -> Self {
+    pub fn new(
+        obstacles: &[Obstacle],
+        s: f64,
+        line: &LineTable,
+        lane_width: LaneWidth,
+        project: Project,
+    ) -> Self {
         let survey = Survey {
             s,
+            line,
             lane_width,
             project,
         };
@@ -146,8 +158,12 @@ impl PathTimeGraph {
     }
 
     /// What is occupied at each time of the grid.
-    pub fn blocked(&self) -> Vec<Vec<(f64, f64)>> {
-        TIMES.iter().map(|t| self.blocked_at(*t).collect()).collect()
+    pub fn blocked(&self) -> Blocked {
+        let of_entry = |entry: &PathTimeEntry| {
+            let entry = *entry;
+            TIMES.iter().map(move |t| entry.occupied_at(*t))
+        };
+        Blocked::new(self.entries.iter().map(of_entry))
     }
 
     /// Whether an obstacle is in it.
@@ -165,6 +181,7 @@ impl Extent {
 /// What obstacles are held against.
 struct Survey<'a> {
     s: f64,
+    line: &'a LineTable,
     lane_width: LaneWidth<'a>,
     project: Project<'a>,
 }
@@ -200,12 +217,13 @@ impl Survey<'_> {
     fn moving(&self, obstacle: &Obstacle) -> Option<PathTimeEntry> {
         let body = Body::of(obstacle);
         let (mut near, mut place) = (f64::NAN, 0);
+        let mut hint = self.line.nearest_place(obstacle.pose.position());
         // What is in the lane is measured when it comes and when it leaves; between that it only has to be there.
         let mut enters: Option<StPair> = None;
         let mut last = None;
         for t in &TIMES {
             let pose = Posed::from(pose_at(&obstacle.prediction, *t, &mut place)?);
-            let touches = match self.at_a_glance(&body, pose, &mut near) {
+            let touches = match self.at_a_glance(&body, pose, &mut hint) {
                 Some(touches) => touches,
                 None => self.touches(&self.extent(&body, pose, &mut near)),
             };
@@ -227,15 +245,14 @@ impl Survey<'_> {
     }
 
     /// Whether a body touches the lane ahead, if its two ends tell; most do.
-    fn at_a_glance(&self, body: &Body, pose: Posed, near: &mut f64) -> Option<bool> {
-        let back = (self.project)(pose.to_world(body.back), *near);
-        *near = back.s;
-        let ahead = (self.s..=self.s + RANGE).contains(&back.s);
+    fn at_a_glance(&self, body: &Body, pose: Posed, hint: &mut usize) -> Option<bool> {
+        let back = self.line.glance(pose.to_world(body.back), hint)?;
+        let ahead = (self.s + ROUGHLY..=self.s + RANGE - ROUGHLY).contains(&back.s);
         let (left, right) = self.widths(back.s);
         if ahead && back.l < left - WIDENING && back.l > WIDENING - right {
             return Some(true);
         }
-        let front = (self.project)(pose.to_world(body.front), back.s);
+        let front = self.line.glance(pose.to_world(body.front), &mut hint.clone())?;
         let (low, high) = (back.l.min(front.l), back.l.max(front.l));
         let (left, right) = self.widths(back.s.min(front.s));
         let beside = low - body.beside > left + WIDENING || high + body.beside < -right - WIDENING;
@@ -329,12 +346,13 @@ mod tests {
                 is_static: false,
                 prediction: Vec::new(),
             };
+            let table = LineTable::sampled(&line, 0.0, 300.0).unwrap();
             let lane_width = |s| line.lane_width(s);
             let project = |point: Vec2, _: f64| line.to_frenet(point);
-            let survey = Survey { s: ego, lane_width: &lane_width, project: &project };
+            let survey = Survey { s: ego, line: &table, lane_width: &lane_width, project: &project };
             let (body, pose) = (Body::of(&obstacle), Posed::from(obstacle.pose));
             let measured = survey.touches(&survey.extent(&body, pose, &mut { f64::NAN }));
-            let glance = survey.at_a_glance(&body, pose, &mut { f64::NAN });
+            let glance = survey.at_a_glance(&body, pose, &mut table.nearest_place(at));
             prop_assert!(glance.is_none_or(|glance| glance == measured), "{glance:?} for {measured}");
         }
     }

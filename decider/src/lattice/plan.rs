@@ -6,8 +6,8 @@ use super::bundle::{Longitudinal, lateral_bundle, longitudinal_bundle};
 use super::collision::{CollisionEnvironment, Footprint, Near};
 use super::combine::{LongitudinalTrack, Motions, Point, combine};
 use super::config::LatticeConfig;
-use super::constraints::{Violation, is_steerable, violation};
-use super::cost::{LateralProfile, Sampled};
+use super::constraints::{Violation, is_steerable};
+use super::cost::{Blocked, LateralProfile, Sampled};
 use super::curve::{ConstantDeceleration, Curve};
 use super::end_conditions;
 use super::evaluator::{Evaluator, Pair, STOP_BUFFER, Surroundings};
@@ -119,7 +119,7 @@ pub struct Lattice<'a> {
     pub(super) longitudinal: Vec<Longitudinal>,
     pub(super) laterals: Vec<LateralProfile>,
     guide: [f64; SAMPLES],
-    blocked: Vec<Vec<(f64, f64)>>,
+    blocked: Blocked,
     environment: CollisionEnvironment,
     ego: Footprint,
     largest_offset: f64,
@@ -131,7 +131,7 @@ impl<'a> Lattice<'a> {
     /// Samples the curves of a task and looks at its obstacles.
     pub fn new(task: LineTask<'a>) -> Self {
         let [s, v, _] = task.initial.s;
-        let graph = PathTimeGraph::new(task.obstacles, s, task.lane_width, task.project);
+        let graph = PathTimeGraph::new(task.obstacles, s, task.line, task.lane_width, task.project);
         let laterals = laterals(&task, &graph);
         let largest = laterals.iter().map(|lateral| lateral.largest).fold(0.0, f64::max);
         Self {
@@ -172,8 +172,12 @@ impl<'a> Lattice<'a> {
             return Some(Rejection::LeavesLine);
         }
         let place = |k| motions.place(&laid.track, k);
-        let touched = || laid.near.touched_at(motions.len(), &self.ego, place);
-        violation(motions.dynamics())
+        let touched = || {
+            self.environment
+                .touched_at(&laid.near, motions.len(), &self.ego, place)
+        };
+        motions
+            .violation()
             .map(Rejection::Violates)
             .or_else(|| touched().map(Rejection::Touches))
     }
@@ -272,7 +276,11 @@ impl<'a> Lattice<'a> {
         }
         let bends = points.iter().any(|point| !is_steerable(point.kappa));
         let bends = bends.then_some(Rejection::Violates(Violation::Curvature));
-        let rejection = bends.or_else(|| laid.near.touched(&points, &self.ego).map(Rejection::Touches));
+        let rejection = bends.or_else(|| {
+            self.environment
+                .touched(&laid.near, &points, &self.ego)
+                .map(Rejection::Touches)
+        });
         Some((points, rejection))
     }
 }

@@ -6,6 +6,7 @@
 use super::PlanningTarget;
 use super::bundle::Longitudinal;
 use super::combine::Motions;
+use super::cost::comfort_of;
 use super::curve::Curve;
 use super::evaluator::{Pair, PairCosts, Unfit, unfit};
 use super::path_time_graph::PathTimeEntry;
@@ -39,22 +40,23 @@ pub struct Survey {
 impl Lattice<'_> {
     /// Every pair with what is wrong with it, in the order of the longitudinal curves and then of the lateral ones.
     pub fn assessed(&self) -> Vec<Assessed> {
-        let mut pairs: Vec<Pair> = Vec::new();
-        let mut queue = self.pairs();
-        pairs.extend(&mut queue);
-        pairs.sort_by_key(|pair| (pair.longitudinal, pair.lateral));
-        let (mut laid, mut motions, mut on) = (Laid::default(), Motions::default(), None);
-        let mut assess = |pair: Pair| {
-            if let Some(sampled) = queue
-                .sampled(pair.longitudinal)
-                .filter(|_| on != Some(pair.longitudinal))
-            {
-                self.lay(sampled, &mut laid);
-                on = Some(pair.longitudinal);
+        let queue = self.pairs();
+        let mut assessed = Vec::with_capacity(queue.pairs());
+        let (mut laid, mut motions) = (Laid::default(), Motions::default());
+        for (survivor, (longitudinal, sampled)) in queue.sampled_survivors().enumerate() {
+            self.lay(sampled, &mut laid);
+            for lateral in 0..self.laterals.len() {
+                let rejection = self.rejection(&laid, lateral, &mut motions);
+                let comfort = comfort_of(sampled, &motions.lateral);
+                let pair = Pair {
+                    longitudinal,
+                    lateral,
+                    cost: queue.costs_of(survivor, lateral, comfort).sum(),
+                };
+                assessed.push((pair, rejection));
             }
-            (pair, self.rejection(&laid, pair.lateral, &mut motions))
-        };
-        pairs.into_iter().map(&mut assess).collect()
+        }
+        assessed
     }
 
     /// All that was weighed, and the plan that came of it; `None` where there is no plan.

@@ -82,7 +82,7 @@ pub(super) fn backup(case: &LatticeCase) -> Result<(), String> {
         let track = LongitudinalTrack::new(&Sampled::new(&braking.into()), &line);
         environment.find_near(&track, FARTHEST, &ego, &mut close);
         combine(&track, lateral, &mut points);
-        let collides = close.touched(&points, &ego).is_some();
+        let collides = environment.touched(&close, &points, &ego).is_some();
         same(
             &format!("collision of pair {k}"),
             &wanted["in_collision"],

@@ -6,7 +6,7 @@ use super::scene::{self, Start, Target};
 use super::{LatticeCase, agrees, all_near, near, number, same};
 use corridor_decider::geometry::Polynomial;
 use corridor_decider::lattice::{
-    Braking, Curve, Evaluator, LateralProfile, LineTable, LongitudinalCosts, Pair, SAMPLES, Sampled,
+    Blocked, Braking, Curve, Evaluator, LateralProfile, LineTable, LongitudinalCosts, Pair, SAMPLES, Sampled,
     Surroundings, Weights, braking_profile, guide_speeds, keeps_longitudinal_limits, keeps_stop,
     lateral_bundle, lateral_comfort, total_cost,
 };
@@ -84,8 +84,17 @@ pub(super) fn braking(case: &LatticeCase) -> Result<(), String> {
 
 /// What is occupied at the times of the grid.
 #[derive(Deserialize)]
-struct Blocked {
+struct Intervals {
     blocking_intervals: Vec<Vec<(f64, f64)>>,
+}
+
+impl Intervals {
+    /// Which interval is whose does not matter: the first ones are taken for one obstacle's, and so on.
+    fn by_obstacle(&self) -> Blocked {
+        let most = self.blocking_intervals.iter().map(Vec::len).max();
+        let rows = 0..most.unwrap_or(0);
+        Blocked::new(rows.map(|row| self.blocking_intervals.iter().map(move |at| at.get(row).copied())))
+    }
 }
 
 /// Curves that start where the case does.
@@ -105,7 +114,7 @@ pub(super) fn costs(case: &LatticeCase) -> Result<(), String> {
     let rows: Vec<[f64; 2]> =
         Vec::deserialize(&case.input["reference_line_s_kappa"]).map_err(|e| e.to_string())?;
     let line = scene::line(&rows, scene::bends)?;
-    let (blocked, guide) = (case.input::<Blocked>()?.blocking_intervals, guide_of(case)?);
+    let (blocked, guide) = (case.input::<Intervals>()?.by_obstacle(), guide_of(case)?);
     all_near(
         "guide",
         &case.expected["guide_velocity"],
@@ -171,7 +180,7 @@ pub(super) fn run(case: &LatticeCase) -> Result<(), String> {
         .map(|curve: Polynomial| LateralProfile::new(curve.into()))
         .collect();
     let guide = guide_of(case)?;
-    let blocked = case.input::<Blocked>()?.blocking_intervals;
+    let blocked = case.input::<Intervals>()?.by_obstacle();
     let around = Surroundings {
         stop_s: target(case)?.stop_point,
         guide: &guide,

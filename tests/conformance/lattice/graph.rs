@@ -31,7 +31,9 @@ pub(super) fn of(bodies: &[Body], line: &LineTable, s: f64, lane_width: Option<(
         .enumerate()
         .map(|(k, body)| body.obstacle(k))
         .collect();
-    PathTimeGraph::new(&obstacles, s, &|_| lane_width, &|point, _| line.frenet(point))
+    PathTimeGraph::new(&obstacles, s, line, &|_| lane_width, &|point, _| {
+        line.frenet(point)
+    })
 }
 
 pub(super) fn graph(case: &LatticeCase) -> Result<(), String> {

@@ -21,7 +21,7 @@ fn straight() -> LineTable {
     LineTable::polyline(vec![foot(0.0), foot(400.0)]).unwrap()
 }
 
-fn costs(curve: &Curve, guide: f64, blocked: &[Vec<(f64, f64)>]) -> LongitudinalCosts {
+fn costs(curve: &Curve, guide: f64, blocked: &Blocked) -> LongitudinalCosts {
     LongitudinalCosts::new(&Sampled::new(curve), &[guide; SAMPLES], blocked, &straight())
 }
 
@@ -38,14 +38,14 @@ fn a_curve_goes_on_at_its_end() {
 #[test]
 fn the_longitudinal_costs_are_those_of_the_specification() {
     let rising = quartic([0.0, 10.0, 0.0], [15.0, 0.0], 4.0);
-    let of_it = costs(&rising, 15.0, &[]);
+    let of_it = costs(&rising, 15.0, &Blocked::default());
     near(of_it.objective, 0.028_978_9);
     // On the grid of whole multiples, at which the specification's number was found, the jerk at 4 s is 0.
     assert!((of_it.jerk - 0.625_781_2).abs() < 2e-2, "{}", of_it.jerk);
     near(rising.at(8.0)[0], 110.0);
     let constant = quartic([0.0, 10.0, 0.0], [10.0, 0.0], 8.0);
-    near(costs(&constant, 15.0, &[]).objective, 0.465_768_8);
-    let blocked = vec![vec![(60.0, 65.0)]; SAMPLES];
+    near(costs(&constant, 15.0, &Blocked::default()).objective, 0.465_768_8);
+    let blocked = Blocked::new([[Some((60.0, 65.0)); SAMPLES].into_iter()].into_iter());
     near(costs(&constant, 15.0, &blocked).collision, 0.980_873_2);
 }
 
