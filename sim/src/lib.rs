@@ -15,6 +15,7 @@ pub mod replay;
 pub mod report;
 mod route;
 pub mod run;
+pub mod search;
 pub mod settings;
 pub mod shrink;
 pub mod signature;

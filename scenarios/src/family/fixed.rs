@@ -2,12 +2,13 @@
 
 use super::{Family, Origin, Template, attempt_of, way};
 use crate::error::DrawError;
-use crate::parameter::Parameter;
+use crate::parameter::{Parameter, Told};
 use crate::resolve::Draft;
 use crate::resolve::sampler::Sampler;
 use crate::schema::ScenarioFile;
 use crate::schema::number::LAW_KEYS;
 use crate::schema::obstacle::Parked;
+use std::collections::BTreeMap;
 use toml::{Table, Value};
 
 /// The arrays of obstacles in a file, in the order in which they are placed.
@@ -23,13 +24,25 @@ impl Family {
     /// # Errors
     /// [`DrawError`] when the seed gives no scenario, or when it is that of a recorded scene.
     pub fn fixed(&self, seed: u64) -> Result<String, DrawError> {
+        self.fixed_told(seed, Told::Nothing)
+    }
+
+    /// The same of a draw with some numbers at these quantiles of their laws: what [`Family::draw_at`] draws.
+    ///
+    /// # Errors
+    /// [`DrawError`] as [`Family::fixed`] and [`Family::draw_at`].
+    pub fn fixed_at(&self, seed: u64, quantiles: &BTreeMap<String, f64>) -> Result<String, DrawError> {
+        self.fixed_told(seed, Told::Quantiles(quantiles.clone()))
+    }
+
+    fn fixed_told(&self, seed: u64, told: Told) -> Result<String, DrawError> {
         let Origin::Drawn(template) = &self.origin else {
             return Err(DrawError::Recorded {
                 family: self.name.clone(),
             });
         };
-        let drawn = self.draw(seed)?;
-        let sampler = Sampler::new(seed, attempt_of(&drawn));
+        let drawn = self.draw_told(seed, told.clone())?;
+        let sampler = Sampler::with(seed, attempt_of(&drawn), told);
         let draft =
             Draft::new(&template.file, &template.road, &sampler).map_err(|reason| self.impossible(reason))?;
         let mut content = self.content();

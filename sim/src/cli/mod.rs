@@ -14,6 +14,7 @@ mod outputs;
 mod planner;
 mod results;
 mod run;
+mod search;
 mod shrink;
 mod source;
 mod sweep;
@@ -42,6 +43,8 @@ enum Verb {
     Report(results::Report),
     /// Pair two results files seed by seed and test what differs.
     Compare(results::Compare),
+    /// Look for failures of a family instead of drawing at random.
+    Search(search::Search),
     /// Make a failing run small: fewer obstacles, shorter, rounder numbers, the same failure.
     Shrink(shrink::Shrink),
     /// Plant faults one by one and see whether each is caught.
@@ -79,6 +82,7 @@ pub(crate) fn main() -> ExitCode {
         Verb::Merge(merge) => merge.execute(),
         Verb::Report(report) => report.execute(),
         Verb::Compare(compare) => compare.execute(),
+        Verb::Search(search) => search.execute(),
         Verb::Shrink(shrink) => shrink.execute(),
         Verb::Faults(faults) => faults.execute(),
         Verb::Blame(blame) => blame.execute(),

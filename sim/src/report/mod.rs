@@ -20,9 +20,9 @@ mod times;
 
 pub use comparison::{Comparison, comparison_to_json, comparison_to_table};
 pub use csv::Csv;
+pub use faults::{findings_to_json, findings_to_table};
 pub use groups::{Example, Group};
 pub use html::to_html;
-pub use faults::{findings_to_json, findings_to_table};
 pub use json::to_json;
 pub use junit::{Junit, Totals};
 pub use summary::{PullOvers, ScenarioSummary};

@@ -55,7 +55,7 @@ impl Gate {
 ///
 /// # Errors
 /// [`SweepError`] when a thread cannot be started.
-pub(super) fn in_order<T: Send>(
+pub(crate) fn in_order<T: Send>(
     threads: usize,
     count: u64,
     work: impl Fn(u64) -> T + Sync,

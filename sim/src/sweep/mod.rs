@@ -6,8 +6,8 @@
 pub mod bootstrap;
 mod claim;
 mod compare;
-mod in_order;
 pub mod hunt;
+mod in_order;
 pub mod paired;
 mod plan;
 pub mod results;
@@ -26,7 +26,7 @@ use crate::decider;
 use crate::run::run_into;
 use crate::settings::{SettingError, Settings};
 use corridor_scenarios::Drawn;
-use in_order::in_order;
+pub(crate) use in_order::in_order;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
