@@ -111,7 +111,7 @@ fn scenario(summary: &ScenarioSummary) -> String {
         count => format!("<td class=\"bad\">{count}</td>"),
     };
     format!(
-        "<tr><td class=\"text\">{}</td><td>{}</td><td class=\"text\"><span class=\"bar\"><span style=\"width:{share:.1}%\"></span>\
+        "<tr><td class=\"text\">{}</td><td>{}</td><td class=\"share\"><span class=\"bar\"><span style=\"width:{share:.1}%\"></span>\
          </span> {}</td>{}{}{}<td>{}</td><td>{}</td><td>{}</td><td>{pull_overs}</td><td>{}</td><td>{}</td></tr>\n",
         escaped(&summary.scenario),
         summary.runs,
