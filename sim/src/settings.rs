@@ -216,6 +216,7 @@ mod tests {
                 .quirks
                 .greedy_sides
         );
+        assert!((set("rss.response_time=0.5").unwrap().rss.response_time - 0.5).abs() < 1e-15);
         assert_eq!(set("fault=mirrored").unwrap().fault, Fault::Mirrored);
     }
 
@@ -227,6 +228,8 @@ mod tests {
         assert!(message("tick=fast").contains("must be a number"));
         assert!(message("tick=0.015").contains("whole physics steps"));
         assert!(message("decider.path=3").contains("group"));
+        assert!(message("rss.min_braking=0").contains("brakes"));
+        assert!(message("rss.braking=4").contains("lateral_braking"));
         assert!(message("tick.x=3").contains("nothing below it"));
     }
 }
