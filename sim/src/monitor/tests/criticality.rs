@@ -182,7 +182,7 @@ fn danger_is_neither_along_nor_across_at_a_safe_distance() {
     // 34.53 m along for 10 m/s, 0.225 m across from who never moves, 0.125 + 0.5 + 0.1 m from who may.
     assert!(!dangerous(true, 34.5, 0.0).pass && dangerous(true, 34.6, 0.0).pass);
     assert!(!dangerous(true, 10.0, beside(0.22)).pass && dangerous(true, 10.0, beside(0.23)).pass);
-    assert!(!dangerous(false, 10.0, -X.pass);
+    assert!(!dangerous(false, 10.0, -beside(0.72)).pass && dangerous(false, 10.0, -beside(0.73)).pass);
     assert!(!dangerous(true, 34.5, 0.0).gate);
 }
 
