@@ -248,6 +248,7 @@ mod tests {
             set("fault=mirrored").unwrap().fault,
             Fault::named("mirrored").unwrap()
         );
+        assert!((set("rss.response_time=0.5").unwrap().rss.response_time - 0.5).abs() < 1e-15);
     }
 
     #[test]
@@ -258,6 +259,8 @@ mod tests {
         assert!(message("tick=fast").contains("must be a number"));
         assert!(message("tick=0.015").contains("whole physics steps"));
         assert!(message("decider.path=3").contains("group"));
+        assert!(message("rss.min_braking=0").contains("brakes"));
+        assert!(message("rss.braking=4").contains("lateral_braking"));
         assert!(message("tick.x=3").contains("nothing below it"));
         let unknown = message("fault=mirored");
         assert!(

@@ -1,7 +1,7 @@
 //! `ssm_ttc`, `drac`, `mdrac_count`: how near the ego comes to running into what is ahead of it.
 //!
 //! SUMO's surrogate safety measures of following, with SUMO's thresholds. Ahead is what lies in the strip along the
-//! line that the ego covers; who passes beside it is none of theirs. SI units.
+//! line that the ego's front covers; who passes beside it is not. SI units.
 
 use super::measure::{Extreme, Measure};
 use super::surroundings::{Ahead, Surroundings};

@@ -78,7 +78,7 @@ pub(super) struct Neighbour {
     pub(super) is_parked: bool,
 }
 
-/// What is ahead in the strip that the ego covers.
+/// What is ahead in the strip that the ego's front covers: what its front is past sideways, it does not run into.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ahead {
     pub(super) id: ObstacleId,
@@ -91,6 +91,8 @@ pub(super) struct Ahead {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Surroundings {
     ego: Option<Body>,
+    /// Right and left end of its front edge.
+    front: (f64, f64),
     neighbours: Vec<Neighbour>,
     /// Where each obstacle was when it was last looked at: what has not moved is not projected again.
     known: Vec<Option<(Motion, Body)>>,
@@ -103,6 +105,7 @@ impl Surroundings {
         let line = &scenario.line;
         let velocity = ego.pose.forward() * ego.v;
         self.ego = Some(Body::of(line, sample.view.footprint, velocity, Some(sample.at.s)));
+        self.front = front(sample);
         self.known.resize(scenario.obstacles.len(), None);
         self.neighbours.clear();
         for (obstacle, known) in scenario.obstacles.iter().zip(&mut self.known) {
@@ -132,10 +135,11 @@ impl Surroundings {
         ego.flat_map(|ego| self.neighbours.iter().map(move |other| (ego, other)))
     }
 
-    /// What is ahead in the strip that the ego covers.
+    /// What is ahead in the strip that the ego's front covers.
     pub(super) fn ahead(&self) -> impl Iterator<Item = Ahead> {
         let in_strip = |(ego, other): &(&Body, &Neighbour)| {
-            ego.gap_l(&other.body) < 0.0 && ego.is_behind(&other.body) && ego.gap_s(&other.body) > 0.0
+            let is_beside = other.body.l.0 >= self.front.1 || other.body.l.1 <= self.front.0;
+            !is_beside && ego.is_behind(&other.body) && ego.gap_s(&other.body) > 0.0
         };
         self.pairs().filter(in_strip).map(|(ego, other)| Ahead {
             id: other.id,
@@ -143,6 +147,18 @@ impl Surroundings {
             closing: ego.v_s - other.body.v_s,
         })
     }
+}
+
+/// Offsets of the right and left end of the ego's front edge.
+fn front(sample: &Sample) -> (f64, f64) {
+    let (vehicle, pose) = (&sample.scenario.vehicle, sample.ego().pose);
+    let end = |side: f64| {
+        let corner = Vec2::new(vehicle.front_edge_to_center, side * vehicle.half_width());
+        let corner = pose.to_world(corner);
+        sample.scenario.line.to_frenet_near(corner, sample.at.s).l
+    };
+    let (right, left) = (end(-1.0), end(1.0));
+    (right.min(left), right.max(left))
 }
 
 fn is_far(a: &Pose, b: &Pose) -> bool {

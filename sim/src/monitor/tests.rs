@@ -2,7 +2,9 @@
 
 mod answers;
 mod collisions;
+mod criticality;
 mod decisions;
 mod driving;
 mod endings;
 mod fixture;
+mod plans;

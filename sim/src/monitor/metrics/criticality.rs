@@ -47,7 +47,7 @@ pub(super) const CRITICALITY: [Definition; 12] = [
     metric(
         "ssm_ttc",
         "s",
-        "least gap over closing speed to what is ahead in the strip along the line that the ego covers",
+        "least gap over closing speed to what is ahead in the strip along the line that the ego's front covers",
         "SUMO SSM",
     )
     .limit(AtLeast(following::TTC_LIMIT)),

@@ -95,8 +95,8 @@ pub(super) const PULL_OVER: [Definition; 7] = [
     metric(
         "pull_over_success",
         "",
-        "1 where the ego stood (at most 0.2 m/s for 0.5 s) with its front more than 3 m short of the place at most, \
-         0 to 0.5 m before it, 1 m beside it and 0.2 rad askew at most; front 15 m past it: missed",
+        "1 where the ego stood (at most 0.2 m/s, for 0.5 s) with its axle 0 to 0.5 m before the place, at most 1 m beside \
+         it and 0.2 rad askew; its front 15 m past it: missed",
         "Apollo (CheckADCPullOver)",
     )
     .limit(AtLeast(1.0))
