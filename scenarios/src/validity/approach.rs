@@ -3,7 +3,8 @@
 //! The ego keeps its lateral place and speeds up to the cruise speed. Each obstacle is followed in steps of a
 //! planning period until it first covers ground in the ego's strip. It must then be farther ahead than
 //! `(v − u)² / 2|a| + v · reaction + margin`, with `u` its own speed along the road; one beside the ego must not
-//! come into the strip at all, and one behind must be slower or able to brake.
+//! come into the strip at all, and one behind must be slower or able to brake. What keeps a timetable may slow down
+//! later: full braking from that moment on must keep the ego clear of it until it stands.
 
 use super::course::Course;
 use super::footprint::FrenetBox;
@@ -46,7 +47,7 @@ fn follow(scene: &Scene<'_>, k: usize) -> Option<Rejection> {
     while ego.time <= draft.timeout.min(HORIZON) {
         let body = course.at(ego.time, &ego);
         if body.meets_offsets(strip.0, strip.1) && !ego.is_past(&body) {
-            return judge(scene, k, &ego, &body, last);
+            return judge(scene, k, &ego, &body, last).or_else(|| brake(scene, k, course, ego, &body));
         }
         if course.stands() && !body.meets_offsets(strip.0, strip.1) {
             return None;
@@ -106,6 +107,33 @@ fn judge(
     })
 }
 
+/// Brakes from the moment at which what keeps a timetable is first in the ego's strip, as `first`.
+fn brake<'a>(
+    scene: &'a Scene<'a>,
+    k: usize,
+    mut course: Course<'a>,
+    mut ego: Ego<'a>,
+    first: &FrenetBox,
+) -> Option<Rejection> {
+    if !course.keeps_a_timetable() || first.s.1 <= ego.rear() {
+        return None;
+    }
+    let gap = first.s.0 - ego.front();
+    let seen = ego.time;
+    while ego.speed > 0.0 {
+        ego.brake(ego.time - seen >= REACTION);
+        let body = course.at(ego.time, &ego);
+        if ego.meets(&body) {
+            return Some(Rejection::TooNearToBrake {
+                obstacle: scene.draft.obstacles[k].name.clone(),
+                gap,
+                needed: gap + ego.front() - body.s.0,
+            });
+        }
+    }
+    None
+}
+
 /// The ego on its way, were the road free.
 pub(super) struct Ego<'a> {
     scene: &'a Scene<'a>,
@@ -132,6 +160,22 @@ impl<'a> Ego<'a> {
         if self.speed < self.cruise {
             self.speed = (self.speed + self.scene.draft.vehicle.max_acceleration * STEP).min(self.cruise);
         }
+    }
+
+    /// A step in which it brakes as hard as it can, if it has begun to.
+    fn brake(&mut self, has_begun: bool) {
+        if has_begun {
+            self.speed = (self.speed + self.scene.draft.vehicle.max_deceleration * STEP).max(0.0);
+        }
+        self.travelled += self.speed * STEP;
+        self.time += STEP;
+    }
+
+    /// Whether `body` is where it is.
+    fn meets(&self, body: &FrenetBox) -> bool {
+        let half = self.scene.draft.vehicle.half_width() - TOUCH;
+        let l = self.scene.draft.ego_l;
+        body.meets_offsets(l - half, l + half) && body.meets_stations(self.rear(), self.front())
     }
 
     fn front(&self) -> f64 {

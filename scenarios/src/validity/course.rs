@@ -100,6 +100,11 @@ impl<'a> Course<'a> {
         matches!(self.motion, Motion::Stands)
     }
 
+    /// Whether its times are given, whatever is in its way.
+    pub(super) fn keeps_a_timetable(&self) -> bool {
+        matches!(self.motion, Motion::Legs(_) | Motion::Turns { .. })
+    }
+
     /// Speed along the line in the step that led to `now`; at the start, that of the motion.
     pub(super) fn speed_along(&self, before: Option<FrenetBox>, now: &FrenetBox) -> f64 {
         match (&self.motion, before) {

@@ -3,6 +3,7 @@
 //! A report is a pure function of its rows. Wall times are kept beside what is hashed or compared, never in it.
 
 mod comparison;
+mod coverage;
 mod digest;
 mod grid;
 mod json;
@@ -12,6 +13,7 @@ mod table;
 mod times;
 
 pub use comparison::{Comparison, comparison_to_json, comparison_to_table};
+pub use coverage::{Bins, Coverage, Decided, Situation};
 pub use json::to_json;
 pub use junit::to_junit;
 pub use summary::{PullOvers, ScenarioSummary};
