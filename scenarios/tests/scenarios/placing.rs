@@ -121,6 +121,7 @@ fn traffic_of_our_direction_shares_the_routes_line() {
         start,
         lane_change,
         params,
+        mobil: None,
     } = &s.obstacles[0].behaviour
     else {
         panic!("{:?}", s.obstacles[0]);

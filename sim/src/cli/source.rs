@@ -43,7 +43,9 @@ pub(crate) fn select(given: &[String], maps: &MapCache) -> anyhow::Result<Select
     for name in given {
         let is_set = (name == CATALOG || name == HARD) && !Path::new(name).exists();
         if is_set {
-            let wanted = catalog::ENTRIES.iter().filter(|entry| name == CATALOG || entry.is_hard);
+            let wanted = catalog::ENTRIES
+                .iter()
+                .filter(|entry| name == CATALOG || entry.is_hard);
             for entry in wanted {
                 selection.add(entry.load(maps), entry.name.to_owned())?;
             }
