@@ -24,6 +24,9 @@ const REACTION: f64 = 0.3;
 /// Distance that should be left, m.
 const MARGIN: f64 = 1.0;
 
+/// From a standing bumper to what can be steered around, m: a lane sideways at the smallest turning radius, and clearance.
+const STEERING_ROOM: f64 = 12.0;
+
 /// Offset between ego and strip beyond which nothing is in the way, m: bodies that only touch pass.
 const TOUCH: f64 = 0.02;
 
@@ -34,6 +37,20 @@ pub(super) fn check(scene: &Scene<'_>) -> Result<(), Rejection> {
         }
     }
     Ok(())
+}
+
+/// Whether the ego, stopping before what stands in its way, may come to stand too near to steer around it: it needs to have
+/// been seen from as far as hard braking takes, and the length of a car and some metres more.
+pub(crate) fn may_stop_too_near(scene: &Scene<'_>) -> bool {
+    let vehicle = &scene.draft.vehicle;
+    let (half, l) = (vehicle.half_width() - TOUCH, scene.draft.ego_l);
+    let speed = scene.draft.ego.speed;
+    let braking = speed * speed / (2.0 * vehicle.max_deceleration.abs()) + speed * REACTION;
+    let room = braking + MARGIN + STEERING_ROOM;
+    scene.standing().any(|body| {
+        let gap = body.s.0 - scene.front();
+        body.meets_offsets(l - half, l + half) && (0.0..room).contains(&gap)
+    })
 }
 
 /// Follows obstacle `k` until it is in the ego's strip, and judges that moment.
@@ -47,7 +64,8 @@ fn follow(scene: &Scene<'_>, k: usize) -> Option<Rejection> {
     while ego.time <= draft.timeout.min(HORIZON) {
         let body = course.at(ego.time, &ego);
         if body.meets_offsets(strip.0, strip.1) && !ego.is_past(&body) {
-            return judge(scene, k, &ego, &body, last).or_else(|| brake(scene, k, course, ego, &body));
+            let along = course.speed_along(last, &body);
+            return judge(scene, k, &ego, &body, along).or_else(|| brake(scene, k, course, ego, &body));
         }
         if course.stands() && !body.meets_offsets(strip.0, strip.1) {
             return None;
@@ -58,14 +76,8 @@ fn follow(scene: &Scene<'_>, k: usize) -> Option<Rejection> {
     None
 }
 
-/// Judges the moment at which `body` is first in the ego's strip; `before` is where it was a step earlier.
-fn judge(
-    scene: &Scene<'_>,
-    k: usize,
-    ego: &Ego<'_>,
-    body: &FrenetBox,
-    before: Option<FrenetBox>,
-) -> Option<Rejection> {
+/// Judges the moment at which `body` is first in the ego's strip, at a speed along the line.
+fn judge(scene: &Scene<'_>, k: usize, ego: &Ego<'_>, body: &FrenetBox, along: f64) -> Option<Rejection> {
     let obstacle = &scene.draft.obstacles[k];
     let name = || obstacle.name.clone();
     let (front, rear) = (ego.front(), ego.rear());
@@ -75,7 +87,6 @@ fn judge(
             time: ego.time,
         });
     }
-    let along = Course::new(scene, k).speed_along(before, body);
     if body.s.1 <= rear {
         let brakes = matches!(obstacle.behaviour, Behaviour::Idm { .. });
         let catches_up = along > ego.cruise && (rear - body.s.1) / (along - ego.cruise) < scene.draft.timeout;
