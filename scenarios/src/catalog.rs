@@ -14,6 +14,8 @@ pub struct Entry {
     pub text: &'static str,
     /// Whether its map is one of the shared ones, which need not be on this machine.
     pub needs_shared_maps: bool,
+    /// Whether it is one of the hard families: whoever keeps his lane and his speed fails there.
+    pub is_hard: bool,
 }
 
 macro_rules! own {
@@ -22,6 +24,7 @@ macro_rules! own {
             name: $name,
             text: include_str!(concat!("../catalog/", $name, ".toml")),
             needs_shared_maps: false,
+            is_hard: false,
         }
     };
 }
@@ -32,11 +35,34 @@ macro_rules! real {
             name: $name,
             text: include_str!(concat!("../catalog/real/", $name, ".toml")),
             needs_shared_maps: true,
+            is_hard: false,
         }
     };
 }
 
-/// All entries: first those on own maps, then those on shared ones, each by name.
+macro_rules! hard {
+    ($name:literal) => {
+        Entry {
+            name: $name,
+            text: include_str!(concat!("../catalog/hard/", $name, ".toml")),
+            needs_shared_maps: false,
+            is_hard: true,
+        }
+    };
+}
+
+macro_rules! hard_real {
+    ($name:literal) => {
+        Entry {
+            name: $name,
+            text: include_str!(concat!("../catalog/hard/real/", $name, ".toml")),
+            needs_shared_maps: true,
+            is_hard: true,
+        }
+    };
+}
+
+/// All entries: first those on own maps, then those on shared ones, then the hard ones in the same order, each by name.
 pub const ENTRIES: &[Entry] = &[
     own!("blocked_borrow"),
     own!("blocked_both_lanes"),
@@ -97,6 +123,52 @@ pub const ENTRIES: &[Entry] = &[
     real!("parking_demo_nudge"),
     real!("straight_blocked"),
     real!("two_plus_one_slow_leader"),
+    hard!("accident"),
+    hard!("accident_with_helper"),
+    hard!("blocker_chain"),
+    hard!("busy_two_lanes"),
+    hard!("car_noses_out"),
+    hard!("car_pulls_out"),
+    hard!("child_from_row"),
+    hard!("construction_channel"),
+    hard!("construction_in_bend"),
+    hard!("construction_zone"),
+    hard!("convoy_oncoming"),
+    hard!("curve_blocker_chain"),
+    hard!("curve_nudge"),
+    hard!("curve_overtake_oncoming"),
+    hard!("cut_in_and_brake"),
+    hard!("cut_in_behind_queue"),
+    hard!("deep_nudge"),
+    hard!("door_opens"),
+    hard!("doors_of_a_row"),
+    hard!("double_parked_both"),
+    hard!("double_parked_row"),
+    hard!("late_sight"),
+    hard!("leader_stops_and_goes"),
+    hard!("long_lorry_oncoming"),
+    hard!("merge_before_works"),
+    hard!("merge_column"),
+    hard!("merging_from_the_right"),
+    hard!("motorway_accident"),
+    hard!("narrow_gap"),
+    hard!("narrowing_gap"),
+    hard!("pull_over_before_junction"),
+    hard!("pull_over_past_blocker"),
+    hard!("pull_over_tight"),
+    hard!("ragged_row"),
+    hard!("slalom"),
+    hard!("staggered_gap"),
+    hard!("walker_behind_van"),
+    hard!("walker_stops_in_lane"),
+    hard!("walkers_from_both_sides"),
+    hard_real!("curves_overtake_oncoming"),
+    hard_real!("e6_accident"),
+    hard_real!("e6_busy"),
+    hard_real!("fabriksgatan_double_parked"),
+    hard_real!("fabriksgatan_walker"),
+    hard_real!("parking_demo_door"),
+    hard_real!("straight_works"),
 ];
 
 /// The entry of this name.
@@ -110,16 +182,17 @@ impl Entry {
     /// # Errors
     /// [`ScenarioError::SharedMapsAbsent`] where a shared map is not on this machine: such a scenario is skipped.
     pub fn load(&self, maps: &MapCache) -> Result<Family, ScenarioError> {
-        let folder = if self.needs_shared_maps {
-            "catalog/real"
-        } else {
-            "catalog"
-        };
-        Family::parse_with(
-            self.text,
-            &format!("{folder}/{}.toml", self.name),
-            Path::new(""),
-            maps,
-        )
+        let file = format!("{}/{}.toml", self.folder(), self.name);
+        Family::parse_with(self.text, &file, Path::new(""), maps)
+    }
+
+    /// The folder that holds its file.
+    pub fn folder(&self) -> &'static str {
+        match (self.is_hard, self.needs_shared_maps) {
+            (false, false) => "catalog",
+            (false, true) => "catalog/real",
+            (true, false) => "catalog/hard",
+            (true, true) => "catalog/hard/real",
+        }
     }
 }

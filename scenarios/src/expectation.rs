@@ -2,11 +2,13 @@
 //!
 //! A file may leave the end to geometry (`progress_by_gap`, `pulled_over_by_gap`): then a way or a gap that is wide
 //! enough for any careful driver must be used, one that is narrower than the car must not, and between the two
-//! both ends are right. An end that the file names outright is checked against the same geometry, so that a
+//! both ends are right; so they are where something is seen so late that braking for it may end too near to steer around
+//! it. An end that the file names outright is checked against the same geometry, so that a
 //! sweep never counts the impossible as a failure.
 
 use crate::scenario::Expectation;
 use crate::schema::task::{Expect, Task};
+use crate::validity::approach;
 use crate::validity::kerb::{self, KerbGap};
 use crate::validity::passage::Passage;
 use crate::validity::{Rejection, Scene};
@@ -77,7 +79,9 @@ fn progress(scene: &Scene<'_>, distance: Option<f64>, by_gap: bool) -> Result<Ex
             widest: passage.strict,
             needed: width,
         }),
-        (false, true) if !passage.is_open(width) => Ok(Expectation::ProgressOrStandstill(distance)),
+        (false, true) if !passage.is_open(width) || approach::may_stop_too_near(scene) => {
+            Ok(Expectation::ProgressOrStandstill(distance))
+        }
         (false, _) => Ok(Expectation::Progress(distance)),
     }
 }

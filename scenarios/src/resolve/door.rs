@@ -51,14 +51,22 @@ impl Hung {
         Pose::new(at.x, at.y, angle::wrap(self.car.theta - out * open))
     }
 
-    /// Where it is on its way to `open` rad, which takes `duration` seconds.
-    pub(super) fn swing(&self, open: f64, duration: f64) -> Vec<Waypoint> {
+    /// Where it is on its way to `open` rad, which takes `duration` seconds; and on its way back, if it stays there for
+    /// so long only.
+    pub(super) fn swing(&self, open: f64, duration: f64, stays: Option<f64>) -> Vec<Waypoint> {
         let share = |k| f64::from(k) / f64::from(LEGS);
         let at = |k| Waypoint {
             t: duration * share(k),
             pose: self.pose(open * share(k)),
         };
-        (0..=LEGS).map(at).collect()
+        let back = stays.into_iter().flat_map(|stays| {
+            let closing = (0..=LEGS).rev();
+            closing.map(move |k| Waypoint {
+                t: duration + stays + duration * share(LEGS - k),
+                ..at(k)
+            })
+        });
+        (0..=LEGS).map(at).chain(back).collect()
     }
 }
 
@@ -76,7 +84,14 @@ mod tests {
                 beside: 0.9,
                 length: 1.0,
             };
-            let swing = door.swing(1.2, 2.0);
+            let swing = door.swing(1.2, 2.0, Some(3.0));
+            let times: Vec<f64> = swing.iter().map(|waypoint| waypoint.t).collect();
+            assert_eq!(times, [0.0, 0.5, 1.0, 1.5, 2.0, 5.0, 5.5, 6.0, 6.5, 7.0]);
+            assert_eq!(swing[5].pose, swing[4].pose);
+            assert_eq!(
+                (swing[9].pose, door.swing(1.2, 2.0, None).len()),
+                (swing[0].pose, 5)
+            );
             assert!(swing[0].t.abs() < 1e-12 && (swing[4].t - 2.0).abs() < 1e-12);
             let end = |waypoint: &Waypoint, x: f64| waypoint.pose.to_world(Vec2::new(x, 0.0));
             for waypoint in &swing {

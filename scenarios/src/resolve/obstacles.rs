@@ -179,10 +179,12 @@ impl<'a, 'd> Placer<'a, 'd> {
             beside,
             length: table.number_or("length", door.length.as_ref(), door::LENGTH),
         };
-        let waypoints = hung.swing(
+        let (angle_open, duration) = (
             table.number("angle", &door.angle),
             table.number("duration", &door.duration),
         );
+        let stays = door.stays.as_ref().map(|stays| table.number("stays", stays));
+        let waypoints = hung.swing(angle_open, duration, stays);
         let closed = waypoints[0].pose;
         let at = self.road.line.to_frenet(closed.position());
         let spot = Spot {

@@ -209,6 +209,8 @@ pub struct Door {
     pub angle: Number<Swing>,
     /// How long opening takes, s.
     pub duration: Number<Duration>,
+    /// How long it stays open, s; for good when absent.
+    pub stays: Option<Number<Duration>>,
     /// What opens it.
     pub when: When,
 }

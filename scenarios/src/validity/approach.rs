@@ -3,7 +3,8 @@
 //! The ego keeps its lateral place and speeds up to the cruise speed. Each obstacle is followed in steps of a
 //! planning period until it first covers ground in the ego's strip. It must then be farther ahead than
 //! `(v − u)² / 2|a| + v · reaction + margin`, with `u` its own speed along the road; one beside the ego must not
-//! come into the strip at all, and one behind must be slower or able to brake.
+//! come into the strip at all, and one behind must be slower or able to brake. What keeps a timetable may slow down
+//! later: full braking from that moment on must keep the ego clear of it until it stands.
 
 use super::course::Course;
 use super::footprint::FrenetBox;
@@ -23,6 +24,9 @@ const REACTION: f64 = 0.3;
 /// Distance that should be left, m.
 const MARGIN: f64 = 1.0;
 
+/// From a standing bumper to what can be steered around, m: a lane sideways at the smallest turning radius, and clearance.
+const STEERING_ROOM: f64 = 12.0;
+
 /// Offset between ego and strip beyond which nothing is in the way, m: bodies that only touch pass.
 const TOUCH: f64 = 0.02;
 
@@ -33,6 +37,20 @@ pub(super) fn check(scene: &Scene<'_>) -> Result<(), Rejection> {
         }
     }
     Ok(())
+}
+
+/// Whether the ego, stopping before what stands in its way, may come to stand too near to steer around it: it needs to have
+/// been seen from as far as hard braking takes, and the length of a car and some metres more.
+pub(crate) fn may_stop_too_near(scene: &Scene<'_>) -> bool {
+    let vehicle = &scene.draft.vehicle;
+    let (half, l) = (vehicle.half_width() - TOUCH, scene.draft.ego_l);
+    let speed = scene.draft.ego.speed;
+    let braking = speed * speed / (2.0 * vehicle.max_deceleration.abs()) + speed * REACTION;
+    let room = braking + MARGIN + STEERING_ROOM;
+    scene.standing().any(|body| {
+        let gap = body.s.0 - scene.front();
+        body.meets_offsets(l - half, l + half) && (0.0..room).contains(&gap)
+    })
 }
 
 /// Follows obstacle `k` until it is in the ego's strip, and judges that moment.
@@ -46,7 +64,8 @@ fn follow(scene: &Scene<'_>, k: usize) -> Option<Rejection> {
     while ego.time <= draft.timeout.min(HORIZON) {
         let body = course.at(ego.time, &ego);
         if body.meets_offsets(strip.0, strip.1) && !ego.is_past(&body) {
-            return judge(scene, k, &ego, &body, last);
+            let along = course.speed_along(last, &body);
+            return judge(scene, k, &ego, &body, along).or_else(|| brake(scene, k, course, ego, &body));
         }
         if course.stands() && !body.meets_offsets(strip.0, strip.1) {
             return None;
@@ -57,14 +76,8 @@ fn follow(scene: &Scene<'_>, k: usize) -> Option<Rejection> {
     None
 }
 
-/// Judges the moment at which `body` is first in the ego's strip; `before` is where it was a step earlier.
-fn judge(
-    scene: &Scene<'_>,
-    k: usize,
-    ego: &Ego<'_>,
-    body: &FrenetBox,
-    before: Option<FrenetBox>,
-) -> Option<Rejection> {
+/// Judges the moment at which `body` is first in the ego's strip, at a speed along the line.
+fn judge(scene: &Scene<'_>, k: usize, ego: &Ego<'_>, body: &FrenetBox, along: f64) -> Option<Rejection> {
     let obstacle = &scene.draft.obstacles[k];
     let name = || obstacle.name.clone();
     let (front, rear) = (ego.front(), ego.rear());
@@ -74,7 +87,6 @@ fn judge(
             time: ego.time,
         });
     }
-    let along = Course::new(scene, k).speed_along(before, body);
     if body.s.1 <= rear {
         let brakes = matches!(obstacle.behaviour, Behaviour::Idm { .. });
         let catches_up = along > ego.cruise && (rear - body.s.1) / (along - ego.cruise) < scene.draft.timeout;
@@ -106,6 +118,33 @@ fn judge(
     })
 }
 
+/// Brakes from the moment at which what keeps a timetable is first in the ego's strip, as `first`.
+fn brake<'a>(
+    scene: &'a Scene<'a>,
+    k: usize,
+    mut course: Course<'a>,
+    mut ego: Ego<'a>,
+    first: &FrenetBox,
+) -> Option<Rejection> {
+    if !course.keeps_a_timetable() || first.s.1 <= ego.rear() {
+        return None;
+    }
+    let gap = first.s.0 - ego.front();
+    let seen = ego.time;
+    while ego.speed > 0.0 {
+        ego.brake(ego.time - seen >= REACTION);
+        let body = course.at(ego.time, &ego);
+        if ego.meets(&body) {
+            return Some(Rejection::TooNearToBrake {
+                obstacle: scene.draft.obstacles[k].name.clone(),
+                gap,
+                needed: gap + ego.front() - body.s.0,
+            });
+        }
+    }
+    None
+}
+
 /// The ego on its way, were the road free.
 pub(super) struct Ego<'a> {
     scene: &'a Scene<'a>,
@@ -132,6 +171,22 @@ impl<'a> Ego<'a> {
         if self.speed < self.cruise {
             self.speed = (self.speed + self.scene.draft.vehicle.max_acceleration * STEP).min(self.cruise);
         }
+    }
+
+    /// A step in which it brakes as hard as it can, if it has begun to.
+    fn brake(&mut self, has_begun: bool) {
+        if has_begun {
+            self.speed = (self.speed + self.scene.draft.vehicle.max_deceleration * STEP).max(0.0);
+        }
+        self.travelled += self.speed * STEP;
+        self.time += STEP;
+    }
+
+    /// Whether `body` is where it is.
+    fn meets(&self, body: &FrenetBox) -> bool {
+        let half = self.scene.draft.vehicle.half_width() - TOUCH;
+        let l = self.scene.draft.ego_l;
+        body.meets_offsets(l - half, l + half) && body.meets_stations(self.rear(), self.front())
     }
 
     fn front(&self) -> f64 {

@@ -3,7 +3,7 @@
 use super::Scene;
 use super::approach::{Ego, STEP};
 use super::footprint::{FrenetBox, project_near};
-use crate::scenario::{AlongLine, Behaviour, Trigger, Waypoint};
+use crate::scenario::{AlongLine, Behaviour, IdmParams, Trigger, Waypoint};
 use corridor_decider::geometry::{ConvexPolygon, Pose, Vec2, angle};
 use corridor_decider::reference_line::{ReferenceLine, SlPoint};
 use std::sync::Arc;
@@ -15,13 +15,17 @@ pub(super) struct Course<'a> {
     motion: Motion<'a>,
     /// When it was set off.
     since: Option<f64>,
+    /// How far it has driven until when, m and s.
+    driven: (f64, f64),
 }
 
 enum Motion<'a> {
     Stands,
-    /// Along the line at this speed; then perhaps across, to an offset, in a time.
+    /// Along the line from this speed; then perhaps across, to an offset, in a time.
     Drives {
         speed: f64,
+        /// How its speed changes on a free road; never without.
+        driver: Option<&'a IdmParams>,
         across: Option<(&'a Trigger, f64, f64)>,
     },
     /// On straight legs: (time, place).
@@ -57,12 +61,17 @@ impl<'a> Course<'a> {
             Behaviour::Parked(_) => Motion::Stands,
             Behaviour::ConstantSpeed(start) => Motion::Drives {
                 speed: along(start),
+                driver: None,
                 across: None,
             },
             Behaviour::Idm {
-                start, lane_change, ..
+                start,
+                params,
+                lane_change,
+                ..
             } => Motion::Drives {
                 speed: along(start),
+                driver: Some(params),
                 across: lane_change.as_ref().map(|m| {
                     let sign = if along(start) < 0.0 { -1.0 } else { 1.0 };
                     (&m.trigger, sign * (m.to_l - start.l), m.duration)
@@ -93,11 +102,17 @@ impl<'a> Course<'a> {
             centre: SlPoint { s: spot.s, l: spot.l },
             motion,
             since: None,
+            driven: (0.0, 0.0),
         }
     }
 
     pub(super) fn stands(&self) -> bool {
         matches!(self.motion, Motion::Stands)
+    }
+
+    /// Whether its times are given, whatever is in its way.
+    pub(super) fn keeps_a_timetable(&self) -> bool {
+        matches!(self.motion, Motion::Legs(_) | Motion::Turns { .. })
     }
 
     /// Speed along the line in the step that led to `now`; at the start, that of the motion.
@@ -114,14 +129,15 @@ impl<'a> Course<'a> {
         if self.since.is_none() && self.sets_off(time, ego) {
             self.since = Some(time);
         }
+        self.drive(time);
         let under_way = self.since.map_or(0.0, |since| time - since);
         let centre = self.centre;
         let (ds, dl) = match &self.motion {
             Motion::Stands => (0.0, 0.0),
-            Motion::Drives { speed, across } => {
+            Motion::Drives { across, .. } => {
                 let share = |duration: f64| (under_way / duration).clamp(0.0, 1.0);
                 (
-                    speed * time,
+                    self.driven.0,
                     across.map_or(0.0, |(_, to, duration)| to * share(duration)),
                 )
             }
@@ -146,6 +162,23 @@ impl<'a> Course<'a> {
         self.start.moved(ds, dl)
     }
 
+    /// Drives on until `time`, towards the speed that its driver wants where nobody is ahead.
+    fn drive(&mut self, time: f64) {
+        let Motion::Drives { speed, driver, .. } = &mut self.motion else {
+            return;
+        };
+        let step = time - self.driven.1;
+        if let Some(driver) = driver.filter(|driver| step > 0.0 && driver.desired_speed != speed.abs()) {
+            let ratio = speed.abs() / driver.desired_speed;
+            let gain = driver.max_acceleration * (1.0 - ratio * ratio * ratio * ratio) * step;
+            let next = (speed.abs() + gain.max(-speed.abs())).copysign(*speed);
+            self.driven = (self.driven.0 + f64::midpoint(*speed, next) * step, time);
+            *speed = next;
+        } else {
+            self.driven = (*speed * time, time);
+        }
+    }
+
     /// Whether what the obstacle waits for is there.
     fn sets_off(&self, time: f64, ego: &Ego<'_>) -> bool {
         match &self.motion {
@@ -154,10 +187,10 @@ impl<'a> Course<'a> {
                 fires(trigger, time, self.centre, ego)
             }
             Motion::Drives {
-                speed,
                 across: Some((trigger, ..)),
+                ..
             } => {
-                let s = self.centre.s + speed * time;
+                let s = self.centre.s + self.driven.0;
                 fires(trigger, time, SlPoint { s, ..self.centre }, ego)
             }
         }

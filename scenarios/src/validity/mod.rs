@@ -4,7 +4,7 @@
 //! counted by its reason and drawn again. A scenario that can be survived only by swerving, at a distance too
 //! short to brake, counts as impossible.
 
-mod approach;
+pub(crate) mod approach;
 mod course;
 mod footprint;
 pub(crate) mod kerb;

@@ -39,15 +39,17 @@ fn names_in(folder: &str) -> BTreeSet<String> {
 
 #[test]
 fn the_program_holds_exactly_the_files_of_the_folder() {
-    let listed = |shared: bool| -> BTreeSet<String> {
-        let entries = ENTRIES.iter().filter(|entry| entry.needs_shared_maps == shared);
-        entries.map(|entry| entry.name.to_owned()).collect()
-    };
-    assert_eq!(listed(false), names_in("catalog"));
-    assert_eq!(listed(true), names_in("catalog/real"));
+    for folder in ["catalog", "catalog/real", "catalog/hard", "catalog/hard/real"] {
+        let entries = ENTRIES.iter().filter(|entry| entry.folder() == folder);
+        let listed: BTreeSet<String> = entries.map(|entry| entry.name.to_owned()).collect();
+        assert_eq!(listed, names_in(folder));
+    }
     let mut sorted = ENTRIES.to_vec();
-    sorted.sort_by_key(|entry| (entry.needs_shared_maps, entry.name));
+    sorted.sort_by_key(|entry| (entry.is_hard, entry.needs_shared_maps, entry.name));
     assert_eq!(sorted, ENTRIES);
+    let names: BTreeSet<&str> = ENTRIES.iter().map(|entry| entry.name).collect();
+    assert_eq!(names.len(), ENTRIES.len(), "a name is a name");
+    assert!(ENTRIES.iter().filter(|entry| entry.is_hard).count() >= 30);
     assert_eq!(catalog::find("cut_in").unwrap().name, "cut_in");
     assert!(catalog::find("no such scenario").is_none());
 }

@@ -121,6 +121,7 @@ fn traffic_of_our_direction_shares_the_routes_line() {
         start,
         lane_change,
         params,
+        mobil: None,
     } = &s.obstacles[0].behaviour
     else {
         panic!("{:?}", s.obstacles[0]);
@@ -222,4 +223,52 @@ fn what_the_map_puts_on_a_lane_is_there_if_it_is_asked_for() {
             .enumerate()
             .all(|(k, obstacle)| obstacle.id.0 as usize == k)
     );
+}
+
+#[test]
+fn a_driver_chooses_among_the_lanes_that_there_are() {
+    let lanes = |keys: &str| {
+        let s = scenario(&format!(
+            "map='dual'\n[[idm]]\nlane='left'\nahead=40\nspeed=8\nmobil={{{keys}}}\n"
+        ));
+        match &s.obstacles[0].behaviour {
+            Behaviour::Idm {
+                mobil: Some(mobil), ..
+            } => mobil.clone(),
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(lanes("").lanes, [0.0, 3.5]);
+    assert_eq!(lanes("lanes=['left','right']").lanes, [3.5]);
+    let wishes = lanes("politeness=0.4,threshold=0.3,safe_braking=2,duration=3");
+    close(wishes.politeness, 0.4);
+    close(wishes.threshold, 0.3);
+    close(wishes.safe_braking, 2.0);
+    close(wishes.duration, 3.0);
+}
+
+#[test]
+fn a_door_is_a_body_at_the_side_of_its_car_and_a_timetable_may_wait() {
+    let s = scenario(
+        "map='street'\ncruise_speed=5\n[[parked]]\nname='car'\nahead=60\nwidth=1.8\nl=-3\ncount=2\nspacing=1\n\
+         door={side='left',angle=1.0,duration=1,stays=4,when={within=20}}\n\
+         [[scripted]]\nahead=90\nl=-3\nwhen={within=30}\nwaypoints=[{after=2,ahead=95,l=-3}]\n",
+    );
+    let names: Vec<&str> = s.obstacles.iter().map(|o| o.name.as_str()).collect();
+    assert_eq!(
+        names,
+        ["car.0", "car.0, door", "car.1", "car.1, door", "scripted[0]"]
+    );
+    let Behaviour::Triggered { trigger, waypoints } = &s.obstacles[1].behaviour else {
+        panic!("{:?}", s.obstacles[1]);
+    };
+    assert_eq!(*trigger, Trigger::EgoWithin(20.0));
+    // The hinge is 0.8 m ahead of the car's centre, the door 1.1 m long and 0.04 m beside it.
+    close(waypoints[0].pose.x, 80.0 + 0.8 - 0.55);
+    close(waypoints[0].pose.y, -3.0 + 0.9 + 0.04);
+    close(waypoints.last().unwrap().t, 6.0);
+    assert!(matches!(
+        s.obstacles[4].behaviour,
+        Behaviour::Triggered { trigger: Trigger::EgoWithin(d), .. } if (d - 30.0).abs() < 1e-12
+    ));
 }

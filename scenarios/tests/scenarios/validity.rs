@@ -289,3 +289,62 @@ fn bodies_askew_are_taken_as_they_stand() {
     // 3.6 m between them across the road, less the thickness 0.5/cos 0.4: 3.06 m, though the boxes leave nothing.
     assert_eq!(scenario(text).expect, Expectation::ProgressOrStandstill(150.0));
 }
+
+#[test]
+fn a_door_leaves_room_to_brake() {
+    // The tip is in the ego's strip after 0.52 s, in which the ego drives 5 m of the distance at which it begins.
+    let door = |within: f64| {
+        format!(
+            "{STREET}[[parked]]\nahead=80\nfrom='right_lane_line'\nl=0\n\
+             door={{side='left',angle=1.2,duration=1,when={{within={within}}}}}\n"
+        )
+    };
+    assert_eq!(rejection(&door(20.0)).reason(), "too_near_to_brake");
+    scenario(&door(30.0));
+    // One on the other side of the car, or hardly opened, is in nobody's way.
+    scenario(&door(20.0).replace("'left'", "'right'"));
+    scenario(&door(20.0).replace("angle=1.2", "angle=0.3"));
+}
+
+#[test]
+fn who_cuts_in_and_brakes_leaves_room_for_that_too() {
+    let cutter = |ahead: f64, stop: f64| {
+        format!(
+            "map='dual'\ncruise_speed=10\n[ego]\nlane='right_a'\ns=60\n[[scripted]]\nlane='left'\nahead={ahead}\n\
+             waypoints=[{{after=1,ahead={},l=0,heading=0}},{{after=0.5,ahead={stop}}},{{after=5,ahead={}}}]\n",
+            ahead + 10.0,
+            stop + 0.1
+        )
+    };
+    // The ego needs 3 m and 8.3 m from where it is when the cutter comes in, equally fast and clear ahead.
+    assert_eq!(rejection(&cutter(10.5, 21.0)).reason(), "too_near_to_brake");
+    scenario(&cutter(10.5, 25.5));
+    scenario(&cutter(15.0, 26.0));
+}
+
+#[test]
+fn who_wants_to_drive_slower_is_nearer_when_it_comes_in() {
+    let cut = |desired: f64| {
+        format!(
+            "map='dual'\ncruise_speed=10\n[ego]\nlane='right_a'\ns=60\n[[idm]]\nlane='left'\nlength=4\nahead=22\n\
+             speed=10\ndesired_speed={desired}\nlane_change={{to=0,duration=2,when={{at=3}}}}\n"
+        )
+    };
+    scenario(&cut(10.0));
+    assert_eq!(rejection(&cut(3.0)).reason(), "too_near_to_brake");
+}
+
+#[test]
+fn what_is_seen_late_may_end_in_a_standstill() {
+    // 10²/(2·6) + 0.3·10 + 1 + 12 = 24.3 m from bumper to cone.
+    let end = |gap: f64, l: f64| {
+        let cone = format!("[[cone]]\nahead={}\nl={l}\n", 3.89 + 0.2 + gap);
+        scenario(&format!(
+            "{STREET}[expect]\noutcome='progress_by_gap'\ndistance=100\n{cone}"
+        ))
+        .expect
+    };
+    assert_eq!(end(24.0, 0.0), Expectation::ProgressOrStandstill(100.0));
+    assert_eq!(end(24.6, 0.0), Expectation::Progress(100.0));
+    assert_eq!(end(8.0, -1.4), Expectation::Progress(100.0), "it is beside");
+}

@@ -23,7 +23,11 @@ impl List {
         for entry in catalog::ENTRIES {
             match entry.load(&maps) {
                 Ok(family) => {
-                    let kind = if family.is_fixed() { "scenario" } else { "family  " };
+                    let kind = match (family.is_fixed(), entry.is_hard) {
+                        (true, _) => "scenario",
+                        (false, false) => "family  ",
+                        (false, true) => "hard    ",
+                    };
                     output::print(&format!(
                         "{:width$}  {kind}  {}\n",
                         entry.name,

@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 /// Stands for the whole embedded catalog.
 pub(crate) const CATALOG: &str = "catalog";
 
+/// Stands for the hard families of the catalog.
+pub(crate) const HARD: &str = "hard";
+
 /// One scenario by path or by catalog name.
 pub(crate) fn family(given: &str, maps: &MapCache) -> anyhow::Result<Family> {
     let path = Path::new(given);
@@ -38,8 +41,12 @@ pub(crate) struct Selection {
 pub(crate) fn select(given: &[String], maps: &MapCache) -> anyhow::Result<Selection> {
     let mut selection = Selection::default();
     for name in given {
-        if name == CATALOG && !Path::new(name).exists() {
-            for entry in catalog::ENTRIES {
+        let is_set = (name == CATALOG || name == HARD) && !Path::new(name).exists();
+        if is_set {
+            let wanted = catalog::ENTRIES
+                .iter()
+                .filter(|entry| name == CATALOG || entry.is_hard);
+            for entry in wanted {
                 selection.add(entry.load(maps), entry.name.to_owned())?;
             }
         } else if Path::new(name).is_dir() {

@@ -27,7 +27,7 @@ const MOST_THREADS: i64 = 1024;
 
 #[derive(Args)]
 pub(crate) struct Sweep {
-    /// Scenario files, folders of them, catalog names, or `catalog` for all of it.
+    /// Scenario files, folders of them, catalog names, `catalog` for all of it, or `hard` for its hard families.
     #[arg(required = true)]
     scenarios: Vec<String>,
     /// How many runs in all, with `--compare` of each planner; scenarios without random numbers are run once. [default:

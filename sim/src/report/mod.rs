@@ -5,6 +5,7 @@
 
 mod comparison;
 mod csv;
+mod coverage;
 mod digest;
 mod faults;
 mod grid;
@@ -23,6 +24,7 @@ pub use csv::Csv;
 pub use faults::{findings_to_json, findings_to_table};
 pub use groups::{Example, Group};
 pub use html::to_html;
+pub use coverage::{Bins, Coverage, Decided, Situation};
 pub use json::to_json;
 pub use junit::{Junit, Totals};
 pub use summary::{PullOvers, ScenarioSummary};
