@@ -73,7 +73,7 @@ impl Finding {
         match self.result {
             Hunted::Caught(_) => true,
             Hunted::Broken(..) => false,
-            Hunted::Escaped => self.fault.unseen.is_some(),
+            Hunted::Escaped => self.fault.unseen().is_some(),
         }
     }
 }
@@ -130,7 +130,7 @@ impl Hunt<'_> {
             shrunk: None,
         };
         let variant = Variant::of(self, fault);
-        for job in self.plan.in_turn(fault.shows_in, self.seed, self.budget) {
+        for job in self.plan.in_turn(&fault.shows_in(), self.seed, self.budget) {
             let Some(digest) = variant.sound(self, job, known) else {
                 finding.unfit += 1;
                 continue;
@@ -217,9 +217,16 @@ impl Variant {
     }
 }
 
-/// The first gate that a run fails.
+/// The first gate that a run fails; of a decider that broke down, that which says so.
 fn first_failed(verdict: &Verdict) -> Option<&Metric> {
-    verdict.metrics.iter().find(|metric| metric.gate && !metric.pass)
+    let mut failed = verdict
+        .metrics
+        .iter()
+        .filter(|metric| metric.gate && !metric.pass);
+    if verdict.ending == Ending::DeciderFailed {
+        return failed.find(|metric| metric.name == "decider_ok");
+    }
+    failed.next()
 }
 
 fn caught(row: &SweepRow, verdict: &Verdict, metric: &Metric) -> Caught {
