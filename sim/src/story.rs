@@ -57,7 +57,8 @@ impl Story {
         self.is_lost = lost.is_some();
         let label = decision
             .chosen
-            .map(|place| decision.candidates[place].bound.label.to_string());
+            .and_then(|place| decision.candidates.get(place))
+            .map(|candidate| candidate.bound.label.to_string());
         if label != self.label {
             let text = match &label {
                 Some(label) => format!("drives `{label}`"),

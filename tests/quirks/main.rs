@@ -4,8 +4,9 @@
 //! Where a later layer covers for a fault, the monitor judges the earlier answer itself: the decided bound by
 //! `bound_obstacle_clearance` and `missed_block`, the path by `path_obstacle_clearance`, whatever the car then does.
 //!
-//! One switch cannot be seen: `crosses_double_yellow` is met by the lane-borrow decider, which asks for a line that
-//! may be crossed itself.
+//! The whole set, in release, is `corridor faults`; here are a few of it by hand, and what the hunt itself promises.
+
+mod hunted;
 
 use corridor_scenarios::{MapCache, catalog};
 use corridor_sim::run::run;

@@ -159,13 +159,6 @@ pub(super) const FAULTS: &[Spec] = &[
             bounds.obstacle_lon_end_buffer *= -1.0;
         },
     ),
-    configured(
-        "standing_threshold_in_kmh",
-        "Whoever is slower than 5 m/s counts as standing.",
-        |config| {
-            config.path_bounds.static_obstacle_speed_threshold = 5.0;
-        },
-    ),
 ];
 
 fn bounds(plan: &mut LinePlan, change: impl Fn(&mut PathBound)) {

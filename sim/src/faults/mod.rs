@@ -12,6 +12,7 @@ mod bound;
 mod decider;
 mod failure;
 mod following;
+mod hints;
 mod path;
 mod perception;
 mod planted;

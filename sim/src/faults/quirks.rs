@@ -5,14 +5,14 @@ use super::spec::{Plant, Spec, Stage};
 use corridor_decider::config::Config;
 use corridor_decider::planner::TaskName;
 
-/// Nothing of a tick can be planned for half a second.
-const BLIND: &[(Part, f64, f64)] = &[(Part::Localisation, 3.0, 3.5)];
+/// There is no line for two seconds.
+const BLIND: &[(Part, f64, f64)] = &[(Part::ReferenceLine, 4.0, 6.0)];
 
-/// No bound for half a second.
-const NO_PATH: &[(Part, f64, f64)] = &[(Part::Task(TaskName::PathBounds), 3.0, 3.5)];
+/// No bound for three seconds.
+const NO_PATH: &[(Part, f64, f64)] = &[(Part::Task(TaskName::PathBounds), 9.0, 12.0)];
 
-/// No speed for half a second.
-const NO_SPEED: &[(Part, f64, f64)] = &[(Part::Task(TaskName::PiecewiseJerkSpeed), 3.0, 3.5)];
+/// No speed for three seconds.
+pub(super) const NO_SPEED: &[(Part, f64, f64)] = &[(Part::Task(TaskName::PiecewiseJerkSpeed), 4.0, 7.0)];
 
 const fn quirk(name: &'static str, what: &'static str, stage: Stage, change: fn(&mut Config)) -> Spec {
     Spec::new(name, what, stage, Plant::Config(change))

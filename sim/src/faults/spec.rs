@@ -1,6 +1,7 @@
 //! What a planted fault is: its name, what it does, where it sits and where it is likely to show.
 
 use super::failure::Part;
+use super::hints;
 use super::planted::Past;
 use crate::trace::Controls;
 use crate::tracker::TrackerConfig;
@@ -23,13 +24,9 @@ pub struct Spec {
     pub stage: Stage,
     /// How it is planted.
     pub plant: Plant,
-    /// Where it is likely to show, best first: those are looked at before all else.
-    pub shows_in: &'static [Hint],
     /// Parts that fail for a while in the sound run as in the faulty one, without which the fault has no occasion: which,
     /// from when and until when, s.
     pub occasion: &'static [(Part, f64, f64)],
-    /// Why no gate can see it, where that is known: it is planted to say so.
-    pub unseen: Option<&'static str>,
 }
 
 /// A scenario, and the first of the seeds that are likely to show a fault.
@@ -114,22 +111,15 @@ impl Plant {
 }
 
 impl Spec {
-    /// A fault without hints, occasion or excuse.
+    /// A fault without an occasion.
     pub(super) const fn new(name: &'static str, what: &'static str, stage: Stage, plant: Plant) -> Self {
         Self {
             name,
             what,
             stage,
             plant,
-            shows_in: &[],
             occasion: &[],
-            unseen: None,
         }
-    }
-
-    /// The same with scenarios in which it is likely to show.
-    pub(super) const fn shows_in(self, shows_in: &'static [Hint]) -> Self {
-        Self { shows_in, ..self }
     }
 
     /// The same with failures that give it an occasion.
@@ -137,11 +127,13 @@ impl Spec {
         Self { occasion, ..self }
     }
 
-    /// The same with the reason why no gate sees it.
-    pub(super) const fn unseen(self, reason: &'static str) -> Self {
-        Self {
-            unseen: Some(reason),
-            ..self
-        }
+    /// Where it is likely to show: those are looked at before all else.
+    pub fn shows_in(&self) -> Vec<Hint> {
+        hints::shows_in(self.name)
+    }
+
+    /// Why no gate can see it, where that is known: it is planted to say so.
+    pub fn unseen(&self) -> Option<&'static str> {
+        hints::unseen(self.name)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::path::extend;
 use super::planted::Past;
+use super::quirks::NO_SPEED;
 use super::scenario::{KMH, lines};
 use super::spec::{Plant, Spec, Stage};
 use corridor_decider::config::Config;
@@ -163,7 +164,8 @@ pub(super) const FAULTS: &[Spec] = &[
         "A trajectory that only stops is not driven; the last one that was planned is, from where it was.",
         Stage::Speed,
         Plant::Decision(keep_going),
-    ),
+    )
+    .when(NO_SPEED),
     on_trajectory(
         "speeds_in_kmh",
         "The speeds that the tracker is given are in km/h.",

@@ -13,7 +13,7 @@ use corridor_decider::context::Context;
 use corridor_decider::decision::{Decision, TrajectoryPoint};
 use corridor_decider::frame::{Command, Frame, ObstacleKind};
 use corridor_decider::geometry::{Pose, Vec2};
-use corridor_decider::road::{BoundaryType, Side};
+use corridor_decider::road::BoundaryType;
 use corridor_decider::vehicle::VehicleParams;
 use corridor_scenarios::Scenario;
 use corridor_scenarios::scenario::Behaviour;
@@ -102,7 +102,7 @@ fn trajectory() -> Vec<TrajectoryPoint> {
 }
 
 #[test]
-fn there_are_enough_and_each_has_a_name_a_sentence_and_a_hint_that_exists() {
+fn there_are_enough_and_each_has_a_name_and_a_sentence() {
     let names: BTreeSet<&str> = all().map(|spec| spec.name).collect();
     assert_eq!(names.len(), all().count(), "a name is used twice");
     assert!(names.len() >= 40 && !names.contains(NONE));
@@ -116,13 +116,6 @@ fn there_are_enough_and_each_has_a_name_a_sentence_and_a_hint_that_exists() {
             .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
         assert!(is_snake, "{}", spec.name);
         assert!(spec.what.len() > 20 && spec.what.ends_with('.'), "{}", spec.name);
-        for (scenario, _) in spec.shows_in {
-            assert!(
-                corridor_scenarios::catalog::find(scenario).is_some(),
-                "{}: {scenario}",
-                spec.name
-            );
-        }
     }
 }
 
@@ -278,7 +271,6 @@ fn the_road_is_read_wrong_as_told_and_only_where_it_is_told() {
         panic!()
     };
     assert!((place - Vec2::new(165.0, -2.0)).norm() < 1e-9);
-    assert_eq!(Side::Left, Side::Left);
 }
 
 #[test]

@@ -17,7 +17,7 @@ fn result(finding: &Finding) -> &'static str {
     match &finding.result {
         Hunted::Caught(_) => "caught",
         Hunted::Broken(..) => "broke the testbed",
-        Hunted::Escaped if finding.fault.unseen.is_some() => "known unseen",
+        Hunted::Escaped if finding.fault.unseen().is_some() => "known unseen",
         Hunted::Escaped if finding.seeds == 0 => "no seed suits",
         Hunted::Escaped if finding.changed == 0 => "without effect",
         Hunted::Escaped => "slipped through",
@@ -98,7 +98,7 @@ fn ending(caught: &Caught) -> String {
 fn remark(finding: &Finding) -> String {
     let fault = finding.fault;
     let head = format!("{}: {}. {}", fault.name, result(finding), fault.what);
-    match (&finding.result, fault.unseen) {
+    match (&finding.result, fault.unseen()) {
         (Hunted::Broken(replay, reason), _) => format!("{head} {reason}: {replay}"),
         (Hunted::Escaped, Some(reason)) => format!("{head} {reason}"),
         _ => head,
@@ -190,7 +190,7 @@ fn row(finding: &Finding) -> Row<'_> {
         seed: caught.map(|caught| caught.seed),
         replay,
         error,
-        unseen: fault.unseen,
+        unseen: fault.unseen(),
         seeds: finding.seeds,
         unfit: finding.unfit,
         changed: finding.changed,

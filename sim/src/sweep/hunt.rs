@@ -75,7 +75,7 @@ impl Finding {
         match self.result {
             Hunted::Caught(_) => true,
             Hunted::Broken(..) => false,
-            Hunted::Escaped => self.fault.unseen.is_some(),
+            Hunted::Escaped => self.fault.unseen().is_some(),
         }
     }
 }
@@ -138,7 +138,7 @@ impl Hunt<'_> {
             shrunk: None,
         };
         let trial = Trial::of(self, fault);
-        for job in self.plan.in_turn(fault.shows_in, self.seed, self.budget) {
+        for job in self.plan.in_turn(&fault.shows_in(), self.seed, self.budget) {
             let Some(digest) = trial.sound(self, job, known) else {
                 finding.unfit += 1;
                 continue;
@@ -246,9 +246,13 @@ impl Trial {
     }
 }
 
-/// The first gate that a run fails.
+/// The first gate that a run fails; of a decider that broke down, that which says so.
 fn first_failed(verdict: &Judgement) -> Option<&Metric> {
-    verdict.failed.iter().find(|metric| metric.gate)
+    let mut failed = verdict.failed.iter().filter(|metric| metric.gate);
+    if verdict.ending == Ending::DeciderFailed {
+        return failed.find(|metric| metric.name == "decider_ok");
+    }
+    failed.next()
 }
 
 fn caught(row: &SweepRow, verdict: &Judgement, metric: &Metric) -> Caught {

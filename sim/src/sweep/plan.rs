@@ -1,6 +1,7 @@
 //! Which runs a sweep makes.
 
 use corridor_scenarios::Family;
+use std::collections::BTreeSet;
 
 /// Seeds of a family that something is likely to be found in, before all the others are looked at.
 const FIRST_ROUNDS: usize = 8;
@@ -134,23 +135,19 @@ impl Plan {
                 jobs.map(move |(family, seed)| (round, family, seed))
             })
         };
-        let mut jobs: Vec<Job> = Vec::new();
-        for (round, family, seed) in rounds(first, FIRST_ROUNDS).chain(rounds(all, count)) {
-            if jobs.len() >= count {
-                break;
-            }
-            let job = Job {
-                index: jobs.len() as u64,
-                family,
-                seed: seed.wrapping_add(round as u64),
-            };
+        let mut known = BTreeSet::new();
+        let jobs = rounds(first, FIRST_ROUNDS).chain(rounds(all, count));
+        let jobs = jobs.filter_map(|(round, family, from)| {
+            let seed = from.wrapping_add(round as u64);
             let is_fixed = self.families[family].0.is_fixed();
-            let is_known = |other: &Job| other.family == family && (is_fixed || other.seed == job.seed);
-            if !jobs.iter().any(is_known) {
-                jobs.push(job);
-            }
-        }
-        jobs
+            let is_new = known.insert((family, if is_fixed { 0 } else { seed }));
+            is_new.then_some(Job {
+                index: 0,
+                family,
+                seed,
+            })
+        });
+        jobs.take(count).collect()
     }
 
     /// The family of a job and how the user named it.
@@ -173,6 +170,7 @@ impl Plan {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use corridor_scenarios::{MapCache, catalog};
     use std::path::Path;
 
     fn family(name: &str, cruise: &str) -> (Family, String) {
@@ -219,5 +217,19 @@ mod tests {
             parts.sort();
             assert_eq!(parts, runs(&plan(count)), "{count} in {of}");
         }
+    }
+
+    #[test]
+    fn a_search_begins_where_it_is_told_and_looks_at_nothing_twice() {
+        let maps = MapCache::new();
+        let names = ["empty_road", "nudge_sweep", "two_cones"];
+        let family = |name: &str| (catalog::find(name).unwrap().load(&maps).unwrap(), name.to_owned());
+        let plan = Plan::new(names.map(family).into(), 0, 1);
+        let jobs = plan.in_turn(&[("two_cones", 7), ("not_there", 1)], 1, 14);
+        let told: Vec<(usize, u64)> = jobs.iter().map(|job| (job.family, job.seed)).collect();
+        let first: Vec<(usize, u64)> = (7..15).map(|seed| (2, seed)).collect();
+        assert_eq!(told[..8], first);
+        assert_eq!(told[8..], [(0, 1), (1, 1), (2, 1), (1, 2), (2, 2), (1, 3)]);
+        assert_eq!(plan.in_turn(&[], 1, 2).len(), 2);
     }
 }
