@@ -95,7 +95,7 @@ fn what_a_planner_survived_the_search_survives() {
             }
         }
     }
-    println!("{runs} survived runs, {asked} questions, {} missed", missed.len());
+    eprintln!("{runs} survived runs, {asked} questions, {} missed", missed.len());
     assert!(missed.is_empty(), "{missed:#?}");
 }
 
@@ -213,7 +213,7 @@ fn what_a_recorded_driver_survived_the_search_survives() {
             }
         }
     }
-    println!("{drivers} recorded drivers, {} missed", missed.len());
+    eprintln!("{drivers} recorded drivers, {} missed", missed.len());
     assert!(drivers > 20, "{drivers} drivers");
     assert!(missed.is_empty(), "{missed:#?}");
 }

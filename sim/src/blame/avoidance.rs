@@ -137,7 +137,7 @@ impl<'a> Inquest<'a> {
     pub fn answer(&self) -> Avoidable {
         match self.latest() {
             Some(witness) => self.avoidable_by(&witness),
-            None => self.from_the_start(),
+            None => self.searched_to_the_end(),
         }
     }
 
@@ -185,7 +185,7 @@ impl<'a> Inquest<'a> {
 
     /// What can be said when no motion was found: the earliest moment is searched to the end, and then once more
     /// with a smaller body.
-    fn from_the_start(&self) -> Avoidable {
+    fn searched_to_the_end(&self) -> Avoidable {
         match self.search(self.earliest, LAST_BUDGET, 0.0) {
             Answer::Survives(witness) => self.avoidable_by(&witness),
             Answer::Exhausted(tried) => Avoidable::Unknown(tried),

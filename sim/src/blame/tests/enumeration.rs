@@ -3,7 +3,7 @@
 use super::scene::{Stir, random, start, surroundings};
 use crate::blame::avoidance::SLACK;
 use crate::blame::car::CarState;
-use crate::blame::search::{Answer, Grid, Question, Steer};
+use crate::blame::search::{Answer, Grid, Question, Steer, samples_in};
 use crate::blame::tracks::{OFF_ROAD, Surroundings};
 
 /// How many steps motions have.
@@ -27,7 +27,7 @@ fn question<'a>(
     grid: &'a Grid,
     car: CarState,
 ) -> Question<'a> {
-    let samples = (grid.step / surroundings.dt).round() as usize * STEPS;
+    let samples = samples_in(grid.step, surroundings.dt) * STEPS;
     Question {
         surroundings,
         limits,
