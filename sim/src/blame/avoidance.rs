@@ -136,14 +136,18 @@ impl<'a> Inquest<'a> {
     /// The answer: whether, until when and by what.
     pub fn answer(&self) -> Avoidable {
         match self.latest() {
-            Some(witness) => {
-                debug_assert_eq!(witness.check(&self.recording.surroundings, &self.limits), Ok(()));
-                Avoidable::Yes {
-                    until: Some(self.recording.time_of(witness.first)),
-                    by: Some(witness.manoeuvre(&self.recording.surroundings, self.event)),
-                }
-            }
-            None => self.from_the_start(),
+            Some(witness) => self.avoidable_by(&witness),
+            None => self.searched_to_the_end(),
+        }
+    }
+
+    fn avoidable_by(&self, witness: &Witness) -> Avoidable {
+        let surroundings = &self.recording.surroundings;
+        debug_assert_eq!(witness.check(surroundings, &self.limits), Ok(()));
+        let driven = &self.recording.ego[self.event];
+        Avoidable::Yes {
+            until: Some(self.recording.time_of(witness.first)),
+            by: Some(witness.manoeuvre(surroundings, self.event, driven)),
         }
     }
 
@@ -181,12 +185,9 @@ impl<'a> Inquest<'a> {
 
     /// What can be said when no motion was found: the earliest moment is searched to the end, and then once more
     /// with a smaller body.
-    fn from_the_start(&self) -> Avoidable {
+    fn searched_to_the_end(&self) -> Avoidable {
         match self.search(self.earliest, LAST_BUDGET, 0.0) {
-            Answer::Survives(witness) => Avoidable::Yes {
-                until: Some(self.recording.time_of(self.earliest)),
-                by: Some(witness.manoeuvre(&self.recording.surroundings, self.event)),
-            },
+            Answer::Survives(witness) => self.avoidable_by(&witness),
             Answer::Exhausted(tried) => Avoidable::Unknown(tried),
             Answer::Dies => match self.search(self.earliest, LAST_BUDGET, SLACK) {
                 Answer::Dies => Avoidable::No,

@@ -3,6 +3,7 @@
 use super::car::{CarState, Limits};
 use super::search::samples_in;
 use super::tracks::Surroundings;
+use corridor_decider::frame::EgoState;
 use corridor_decider::geometry::{Pose, angle, cross};
 use corridor_decider::reference_line::LineQuery;
 use serde::{Deserialize, Serialize};
@@ -14,8 +15,8 @@ const ROUNDING: f64 = 1e-6;
 /// How far a step of a motion may be from the arc that it claims to be, m and rad per step.
 const OFF_ARC: f64 = 1e-6;
 
-/// Less sideways than this is no swerve, m; less change of speed no braking, m/s.
-const SWERVE: f64 = 0.3;
+/// Less sideways than this is no swerve, m: less than trackers are wrong by; less change of speed no braking, m/s.
+const SWERVE: f64 = 0.1;
 const SPEEDING: f64 = 0.5;
 
 /// How often the edge of the road is looked at, s: as the monitor does.
@@ -30,12 +31,12 @@ pub struct Witness {
     pub states: Vec<CarState>,
 }
 
-/// What a motion comes to, against driving on.
+/// What a motion comes to at the moment of the bad end, against what the run did.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manoeuvre {
-    /// Change of speed, m/s; negative: braking.
+    /// How much faster the car is then, m/s; negative: it has braked.
     pub speed: f64,
-    /// Way to the left of the line, m; negative: to the right.
+    /// How much farther left it is, m; negative: farther right.
     pub left: f64,
 }
 
@@ -64,17 +65,14 @@ impl fmt::Display for Manoeuvre {
 }
 
 impl Witness {
-    /// What the motion has come to by a sample.
-    pub fn manoeuvre(&self, surroundings: &Surroundings, by: usize) -> Manoeuvre {
+    /// What the motion has come to by a sample, against a run in which the ego was as given then.
+    pub fn manoeuvre(&self, surroundings: &Surroundings, by: usize, against: &EgoState) -> Manoeuvre {
         let line = &surroundings.scenario.line;
-        let (start, end) = (
-            &self.states[0],
-            &self.states[by.saturating_sub(self.first).min(self.states.len() - 1)],
-        );
-        let from = line.to_frenet(start.place);
+        let there = &self.states[by.saturating_sub(self.first).min(self.states.len() - 1)];
+        let driven = line.to_frenet(against.pose.position());
         Manoeuvre {
-            speed: end.v - start.v,
-            left: line.to_frenet_near(end.place, from.s).l - from.l,
+            speed: there.v - against.v,
+            left: line.to_frenet_near(there.place, driven.s).l - driven.l,
         }
     }
 

@@ -1,8 +1,9 @@
 //! The search against all motions of small grids, tried one after another by a code of its own.
 
 use super::scene::{Stir, random, start, surroundings};
+use crate::blame::avoidance::SLACK;
 use crate::blame::car::CarState;
-use crate::blame::search::{Answer, Grid, Question, Steer};
+use crate::blame::search::{Answer, Grid, Question, Steer, samples_in};
 use crate::blame::tracks::{OFF_ROAD, Surroundings};
 
 /// How many steps motions have.
@@ -26,7 +27,7 @@ fn question<'a>(
     grid: &'a Grid,
     car: CarState,
 ) -> Question<'a> {
-    let samples = (grid.step / surroundings.dt).round() as usize * STEPS;
+    let samples = samples_in(grid.step, surroundings.dt) * STEPS;
     Question {
         surroundings,
         limits,
@@ -131,4 +132,44 @@ fn a_search_that_may_try_little_says_so() {
         ..question(&surroundings, &limits, &grid, car)
     };
     assert_eq!(ask.answer(), Answer::Exhausted(3));
+}
+
+/// The finer grid is the oracle: half the step, twice the commands, cells a third as large.
+#[test]
+fn what_is_called_unavoidable_is_not_survived_on_a_finer_grid_either() {
+    let finer = Grid {
+        step: 0.1,
+        accelerations: vec![-1.0, 0.0, -0.75, -0.5, -0.25, 0.5, 1.0],
+        steers: [1.0, -1.0, 0.6, -0.6, 0.3, -0.3, 0.1, -0.1, 0.0]
+            .into_iter()
+            .map(Steer::Share)
+            .chain([Steer::Along])
+            .collect(),
+        cell: Grid::default().cell.map(|size| size / 3.0),
+    };
+    let usual = Grid::default();
+    let mut stir = Stir(23);
+    let mut unavoidable = 0;
+    for case in 0..150 {
+        let scenario = random(&mut stir);
+        let surroundings = surroundings(&scenario, 3.0);
+        let (car, limits) = start(&scenario);
+        let ask = question(&surroundings, &limits, &usual, car);
+        let ask = Question {
+            samples: (0, 100),
+            budget: 100_000,
+            ..ask
+        };
+        let smaller = Question {
+            body: ask.body.drawn_in(SLACK),
+            ..ask
+        };
+        if ask.answer() != Answer::Dies || smaller.answer() != Answer::Dies {
+            continue;
+        }
+        unavoidable += 1;
+        let harder = Question { grid: &finer, ..ask };
+        assert!(!matches!(harder.answer(), Answer::Survives(_)), "case {case}");
+    }
+    assert!(unavoidable > 20, "{unavoidable}");
 }

@@ -29,7 +29,7 @@ fn what_nobody_can_brake_for_is_the_scenarios_fault() {
 
 #[test]
 fn a_mirrored_world_is_not_the_scenarios_fault_and_the_last_moment_is_that_of_braking() {
-    let parked = vec![Behaviour::Parked(Pose::new(110.0, -1.6, 0.0))];
+    let parked = vec![Behaviour::Parked(Pose::new(110.0, -2.0, 0.0))];
     let settings = Settings::with(&["fault=mirrored".to_owned()]).unwrap();
     let Blame {
         failure,

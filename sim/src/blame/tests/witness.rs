@@ -11,7 +11,7 @@ use corridor_decider::geometry::{Pose, Vec2};
 /// A car drives at a wall 30 m ahead of its nose; beside it another keeps pace.
 fn scene() -> (Surroundings, Limits, CarState) {
     let wall = corridor_scenarios::scenario::Behaviour::Parked(Pose::new(66.2, 0.0, 0.0));
-    let beside = mover(Pose::new(30.0, 3.0, 0.0), Pose::new(60.0, 3.0, 0.0));
+    let beside = mover(Pose::new(30.0, 2.4, 0.0), Pose::new(60.0, 2.4, 0.0));
     let scenario = testing::scenario(Pose::new(30.0, 0.0, 0.0), 10.0, vec![wall, beside]);
     let (car, limits) = start(&scenario);
     (surroundings(&scenario, 4.0), limits, car)
