@@ -4,11 +4,14 @@
 use crate::closed_loop::Sink;
 use crate::faults::{self, Failure, Fault, Part, SUDDEN, mirrored, not_a_number};
 use crate::settings::Settings;
+use corridor_decider::baseline::Baseline;
 use corridor_decider::config::PlannerKind;
 use corridor_decider::context::Context;
 use corridor_decider::decision::Decision;
 use corridor_decider::frame::Frame;
-use corridor_decider::planner::{self, LatticePlanner, LatticeSurvey, Planner, Probe, TaskName};
+use corridor_decider::planner::{
+    self, BaselinePlanner, LatticePlanner, LatticeSurvey, Planner, Probe, TaskName,
+};
 use corridor_decider::vehicle::VehicleParams;
 use std::any::Any;
 use std::borrow::Cow;
@@ -18,22 +21,28 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 enum AnyPlanner {
     LaneFollow(Planner),
     Lattice(LatticePlanner),
+    Baseline(BaselinePlanner),
 }
 
 impl AnyPlanner {
     fn new(vehicle: VehicleParams, settings: &Settings) -> Self {
         let config = settings.decider.clone();
+        let baseline = |baseline, config| Self::Baseline(BaselinePlanner::new(baseline, config, vehicle));
         match config.planner {
+            PlannerKind::Blind => baseline(Baseline::Blind, config),
+            PlannerKind::Idm => baseline(Baseline::Idm, config),
+            PlannerKind::PdmClosed => baseline(Baseline::PdmClosed, config),
             PlannerKind::LaneFollow => Self::LaneFollow(Planner::new(config, vehicle)),
             PlannerKind::Lattice => Self::Lattice(LatticePlanner::new(config, vehicle)),
         }
     }
 
-    /// Decides under a probe. The lattice planner has no parts that it could look at.
+    /// Decides under a probe. Only lane following has parts that it could look at.
     fn decide(&self, frame: &Frame, context: &mut Context, probe: &mut dyn Probe) -> Decision {
         match self {
             Self::LaneFollow(planner) => planner.decide_under(frame, context, probe),
             Self::Lattice(planner) => planner.decide(frame, context),
+            Self::Baseline(planner) => planner.decide(frame, context),
         }
     }
 }
@@ -90,7 +99,7 @@ impl Decider {
     /// All that is going to be weighed when this frame is decided; the lattice planner only.
     pub(crate) fn survey(&self, frame: &Frame) -> Option<LatticeSurvey> {
         let survey = || match &self.planner {
-            AnyPlanner::LaneFollow(_) => None,
+            AnyPlanner::LaneFollow(_) | AnyPlanner::Baseline(_) => None,
             AnyPlanner::Lattice(planner) => planner.survey(&self.seen(frame), self.context.last.as_ref()),
         };
         catch_unwind(AssertUnwindSafe(survey)).ok().flatten()
