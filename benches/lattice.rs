@@ -8,7 +8,7 @@
 use corridor_decider::frame::{Obstacle, ObstacleId, ObstacleKind, PredictedPose};
 use corridor_decider::geometry::frenet::FrenetMotion;
 use corridor_decider::geometry::{ConvexPolygon, Pose, Vec2};
-use corridor_decider::lattice::{Lattice, LatticeConfig, LineTable, LineTask, PlanningTarget};
+use corridor_decider::lattice::{Lattice, LatticeConfig, LineTable, LineTask, PlanningTarget, projection};
 use corridor_decider::reference_line::{LineQuery, ReferenceLine, SlPoint};
 use corridor_decider::vehicle::VehicleParams;
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -68,13 +68,7 @@ fn with_lattice<T>(line: &ReferenceLine, obstacles: &[Obstacle], then: impl FnOn
     let (vehicle, config) = (VehicleParams::default(), LatticeConfig::default());
     let table = LineTable::sampled(line, S - 10.0, S + 200.0).expect("the line is long enough");
     let lane_width = |s| line.lane_width(s);
-    let project = |point: Vec2, near: f64| {
-        if near.is_finite() {
-            line.to_frenet_near(point, near)
-        } else {
-            line.to_frenet(point)
-        }
-    };
+    let project = projection(line);
     then(&Lattice::new(LineTask {
         line: &table,
         initial: FrenetMotion {

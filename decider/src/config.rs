@@ -22,6 +22,12 @@ pub enum PlannerKind {
     LaneFollow,
     /// Sampled motions along and across the line.
     Lattice,
+    /// A baseline: keeps its lane and its speed, sees nothing.
+    Blind,
+    /// A baseline: keeps its lane, follows what is nearest in its path.
+    Idm,
+    /// A baseline: the best of several speeds and offsets, by forward simulation.
+    PdmClosed,
 }
 
 /// Settings of all tasks.

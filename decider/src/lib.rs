@@ -7,6 +7,7 @@
 //! **left**; a bound is `(s, l_min, l_max)`, right then left, for the centre of the rear axle.
 
 mod banded;
+pub mod baseline;
 mod columns;
 pub mod config;
 pub mod context;

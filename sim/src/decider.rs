@@ -7,11 +7,14 @@
 use crate::closed_loop::Sink;
 use crate::faults::{self, Failure, Part, Planted};
 use crate::settings::Settings;
+use corridor_decider::baseline::Baseline;
 use corridor_decider::config::PlannerKind;
 use corridor_decider::context::Context;
 use corridor_decider::decision::Decision;
 use corridor_decider::frame::Frame;
-use corridor_decider::planner::{self, LatticePlanner, LatticeSurvey, LinePlan, Planner, Probe, TaskName};
+use corridor_decider::planner::{
+    self, BaselinePlanner, LatticePlanner, LatticeSurvey, LinePlan, Planner, Probe, TaskName,
+};
 use corridor_decider::steps;
 use corridor_decider::vehicle::VehicleParams;
 use std::any::Any;
@@ -37,6 +40,7 @@ pub enum NoAnswer {
 enum AnyPlanner {
     LaneFollow(Planner),
     Lattice(LatticePlanner),
+    Baseline(BaselinePlanner),
 }
 
 impl AnyPlanner {
@@ -44,17 +48,22 @@ impl AnyPlanner {
         let planted = Planted::new(settings.fault);
         let config = planted.config(&settings.decider).into_owned();
         let vehicle = planted.car(vehicle);
+        let baseline = |baseline, config| Self::Baseline(BaselinePlanner::new(baseline, config, vehicle));
         match config.planner {
+            PlannerKind::Blind => baseline(Baseline::Blind, config),
+            PlannerKind::Idm => baseline(Baseline::Idm, config),
+            PlannerKind::PdmClosed => baseline(Baseline::PdmClosed, config),
             PlannerKind::LaneFollow => Self::LaneFollow(Planner::new(config, vehicle)),
             PlannerKind::Lattice => Self::Lattice(LatticePlanner::new(config, vehicle)),
         }
     }
 
-    /// Decides under a probe. The lattice planner has no parts that it could look at.
+    /// Decides under a probe. Only lane following has parts that it could look at.
     fn decide(&self, frame: &Frame, context: &mut Context, probe: &mut dyn Probe) -> Decision {
         match self {
             Self::LaneFollow(planner) => planner.decide_under(frame, context, probe),
             Self::Lattice(planner) => planner.decide(frame, context),
+            Self::Baseline(planner) => planner.decide(frame, context),
         }
     }
 }
@@ -120,7 +129,7 @@ impl Decider {
     /// All that is going to be weighed when this frame is decided; the lattice planner only.
     pub(crate) fn survey(&self, frame: &Frame) -> Option<LatticeSurvey> {
         let survey = || match &self.planner {
-            AnyPlanner::LaneFollow(_) => None,
+            AnyPlanner::LaneFollow(_) | AnyPlanner::Baseline(_) => None,
             AnyPlanner::Lattice(planner) => {
                 let seen = self.planted.clone().seen(frame);
                 planner.survey(&self.failing(seen), self.context.last.as_ref())

@@ -2,6 +2,7 @@
 
 pub mod agents;
 pub mod blame;
+mod both;
 mod clock;
 pub mod closed_loop;
 pub mod decider;

@@ -4,12 +4,14 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod alone;
+mod baselines;
 mod blame;
 mod catalog;
 mod deciders;
 mod evenness;
 mod failing;
 mod lattice;
+mod mirrored;
 mod order;
 mod repeat;
 mod routed;

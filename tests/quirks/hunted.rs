@@ -29,9 +29,10 @@ fn hunted(names: &[&str], on: &[&str], budget: usize, threads: usize) -> Vec<Fin
         settings: &settings,
         overrides: &[],
         seed: 1,
+        shrink: 0,
         budget,
     };
-    hunt(&what, &specs(names), threads, &|_| {}).unwrap()
+    hunt(&what, &specs(names), threads, &mut |_| {}).unwrap()
 }
 
 #[test]

@@ -114,6 +114,13 @@ pub struct Near {
     boxes: Vec<(usize, (usize, usize))>,
 }
 
+impl Near {
+    /// Leaves out the boxes at these places.
+    pub(super) fn leave_out(&mut self, places: &[usize]) {
+        self.boxes.retain(|(place, _)| !places.contains(place));
+    }
+}
+
 impl CollisionEnvironment {
     /// The obstacles that are not ignored, `delay` seconds later than the times of the grid.
     pub fn new(obstacles: &[Obstacle], delay: f64, ignored: impl Fn(&Obstacle) -> bool) -> Self {
@@ -151,6 +158,13 @@ impl CollisionEnvironment {
             let last = is_near.iter().rposition(|is_near| *is_near);
             near.boxes.extend(first.zip(last).map(|times| (place, times)));
         }
+    }
+
+    /// Places of the boxes that the ego meets now.
+    pub(super) fn met_now(&self, ego: &Footprint, place: (Vec2, Vec2)) -> Vec<usize> {
+        let boxes = self.boxes.iter().enumerate();
+        let met = boxes.filter(|(_, other)| ego.meets(place, other, 0));
+        met.map(|(k, _)| k).collect()
     }
 
     /// The obstacle that a trajectory touches first, of those that it comes near to.

@@ -85,6 +85,11 @@ impl LongitudinalTrack {
         self.kappa[self.len..].fill(0.0);
     }
 
+    /// How far it leads in all, m.
+    pub(super) fn way(&self) -> f64 {
+        self.ways[SAMPLES - 1]
+    }
+
     /// The line's points under it, as far as it leads: `x`, then `y`.
     pub(super) fn positions(&self) -> (&[f64], &[f64]) {
         (&self.x[..self.len], &self.y[..self.len])

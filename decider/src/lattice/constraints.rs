@@ -75,8 +75,7 @@ pub fn violation(points: impl Iterator<Item = [f64; 4]>) -> Option<Violation> {
         }
     };
     let of_pair = |([t0, _, a0, _], [t1, v, a1, kappa]): (Dynamics, Dynamics)| {
-        let dt = t1 - t0;
-        if !inside(a1 - a0, (JERK.0 * dt, JERK.1 * dt)) {
+        if !inside((a1 - a0) / (t1 - t0), JERK) {
             Some(Violation::Jerk)
         } else if !inside(v * v * kappa, (-LATERAL_ACCELERATION, LATERAL_ACCELERATION)) {
             Some(Violation::LateralAcceleration)
@@ -107,10 +106,9 @@ pub(super) fn keeps_limits(v: &Series, a: &Series, kappa: &Series) -> bool {
         keeps &= inside(v[k], SPEED) & inside(a[k], ACCELERATION) & inside(kappa[k], (-KAPPA, KAPPA));
     }
     for k in 1..SAMPLES {
-        let dt = TIMES[k] - TIMES[k - 1];
+        let jerk = (a[k] - a[k - 1]) / (TIMES[k] - TIMES[k - 1]);
         let across = v[k] * v[k] * kappa[k];
-        keeps &= inside(a[k] - a[k - 1], (JERK.0 * dt, JERK.1 * dt))
-            & inside(across, (-LATERAL_ACCELERATION, LATERAL_ACCELERATION));
+        keeps &= inside(jerk, JERK) & inside(across, (-LATERAL_ACCELERATION, LATERAL_ACCELERATION));
     }
     keeps
 }

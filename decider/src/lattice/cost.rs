@@ -50,6 +50,8 @@ pub struct Sampled {
     pub(super) jerk: Series,
     /// Way since the start, m. Where the curve goes back the car stands.
     pub(super) ways: Series,
+    /// Whether it goes back anywhere.
+    goes_back: bool,
     /// Way to the end of the curve, m.
     pub way: f64,
 }
@@ -58,9 +60,10 @@ impl Sampled {
     /// Samples a curve.
     pub fn new(curve: &Curve) -> Self {
         let [mut s, mut v, mut a, mut jerk, mut ways] = [[0.0; SAMPLES]; 5];
-        let mut farthest = 0.0_f64;
+        let (mut farthest, mut goes_back) = (0.0_f64, false);
         for (k, t) in TIMES.iter().enumerate() {
             [s[k], v[k], a[k], jerk[k]] = curve.at(*t);
+            goes_back |= s[k] - s[0] < farthest;
             farthest = farthest.max(s[k] - s[0]);
             ways[k] = farthest;
         }
@@ -71,6 +74,7 @@ impl Sampled {
             a,
             jerk,
             ways,
+            goes_back,
         }
     }
 }
@@ -211,12 +215,21 @@ impl LateralProfile {
 /// The largest acceleration across the line of a pair, m/s².
 pub fn lateral_comfort(longitudinal: &Sampled, lateral: &Curve) -> f64 {
     let mut across = [[0.0; SAMPLES]; 3];
-    lateral.sample(&longitudinal.ways, &mut across);
+    lateral.sample(&longitudinal.s.map(|s| s - longitudinal.s[0]), &mut across);
     comfort_of(longitudinal, &across)
 }
 
-/// The same for a lateral curve that is sampled at the ways of the longitudinal one.
-pub(super) fn comfort_of(longitudinal: &Sampled, [_, slopes, bends]: &[Series; 3]) -> f64 {
+/// The same for a lateral curve of which samples at the ways of the longitudinal one are known. These are other ways
+/// only where the car stands instead of going back.
+pub(super) fn comfort_sampled(longitudinal: &Sampled, lateral: &Curve, samples: &[Series; 3]) -> f64 {
+    if longitudinal.goes_back {
+        lateral_comfort(longitudinal, lateral)
+    } else {
+        comfort_of(longitudinal, samples)
+    }
+}
+
+fn comfort_of(longitudinal: &Sampled, [_, slopes, bends]: &[Series; 3]) -> f64 {
     let Sampled { v, a, .. } = longitudinal;
     let mut across = [0.0; SAMPLES];
     for k in 0..SAMPLES {

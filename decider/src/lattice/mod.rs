@@ -49,7 +49,7 @@ pub use guide::{Braking, GuideError, braking_profile, guide_speeds};
 pub use lateral_bounds::{StaticBox, lateral_bounds};
 pub use lateral_optimum::lateral_optimum;
 pub use line_table::{LineTable, foot_on};
-pub use path_time_graph::{LaneWidth, PathTimeEntry, PathTimeGraph, Project};
+pub use path_time_graph::{LaneWidth, PathTimeEntry, PathTimeGraph, Project, projection};
 pub use piecewise::Piecewise;
 pub use piecewise_acceleration::{PiecewiseAcceleration, PiecewiseError};
 pub use plan::{Lattice, LineTask, Outcome, Planned, Rejection, Sizes};

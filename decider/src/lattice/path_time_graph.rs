@@ -10,7 +10,7 @@ use super::line_table::LineTable;
 use super::prediction::pose_at;
 use crate::frame::{Obstacle, ObstacleId};
 use crate::geometry::{Pose, Vec2};
-use crate::reference_line::SlPoint;
+use crate::reference_line::{LineQuery, SlPoint};
 use crate::st_graph::{StPair, StPoint};
 
 /// How far ahead obstacles matter, m (`speed_lon_decision_horizon`).
@@ -36,6 +36,17 @@ pub type LaneWidth<'a> = &'a dyn Fn(f64) -> Option<(f64, f64)>;
 
 /// Frenet coordinates of a point near a station.
 pub type Project<'a> = &'a dyn Fn(Vec2, f64) -> SlPoint;
+
+/// Frenet coordinates of points on a smooth line. A station that is not-a-number is none.
+pub fn projection<L: LineQuery + ?Sized>(line: &L) -> impl Fn(Vec2, f64) -> SlPoint + '_ {
+    |point, near| {
+        if near.is_finite() {
+            line.to_frenet_near(point, near)
+        } else {
+            line.to_frenet(point)
+        }
+    }
+}
 
 /// What one obstacle occupies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -325,7 +336,6 @@ mod tests {
     use super::*;
     use crate::frame::ObstacleKind;
     use crate::geometry::ConvexPolygon;
-    use crate::reference_line::LineQuery;
     use crate::reference_line::testing;
     use proptest::prelude::*;
 

@@ -20,6 +20,7 @@ use super::line_table::LineTable;
 use super::path_time_graph::{LaneWidth, PathTimeGraph, Project};
 use super::prediction::{motions_of, projected_speed};
 use crate::frame::{Obstacle, ObstacleId};
+use crate::geometry::Vec2;
 use crate::geometry::frenet::FrenetMotion;
 use crate::piecewise_jerk::Riccati;
 use crate::steps;
@@ -30,6 +31,9 @@ const STOP_MARGIN: f64 = STOP_BUFFER + 0.01;
 
 /// A car that is this near to its stop point has arrived, m.
 const ARRIVED: f64 = 0.1;
+
+/// Who goes on by less than this within the horizon stands, m.
+const STANDS: f64 = 0.05;
 
 /// Beside the line by less than this, what is behind the car in its lane is left to look out for itself, m.
 const LANE_HALF_WIDTH: f64 = 2.0;
@@ -122,6 +126,8 @@ pub struct Lattice<'a> {
     blocked: Blocked,
     environment: CollisionEnvironment,
     ego: Footprint,
+    /// What is nearer to the car already than the room that is kept.
+    met_now: Vec<usize>,
     largest_offset: f64,
     /// What the path-time graph holds.
     pub graph: PathTimeGraph,
@@ -134,12 +140,14 @@ impl<'a> Lattice<'a> {
         let graph = PathTimeGraph::new(task.obstacles, s, task.line, task.lane_width, task.project);
         let laterals = laterals(&task, &graph);
         let largest = laterals.iter().map(|lateral| lateral.largest).fold(0.0, f64::max);
+        let (environment, ego) = (environment(&task), Footprint::of(task.vehicle));
         Self {
             longitudinal: longitudinal(&task, &graph),
             guide: guide_speeds(&task.target, s, v),
             blocked: graph.blocked(),
-            environment: environment(&task),
-            ego: Footprint::of(task.vehicle),
+            met_now: environment.met_now(&ego, place_of(&task)),
+            environment,
+            ego,
             largest_offset: largest + BETWEEN_METRES,
             laterals,
             graph,
@@ -163,6 +171,10 @@ impl<'a> Lattice<'a> {
         laid.track.lay(curve, self.task.line);
         self.environment
             .find_near(&laid.track, self.largest_offset, &self.ego, &mut laid.near);
+        if laid.track.way() < STANDS {
+            // Too near is too near, but who waits there makes it no worse.
+            laid.near.leave_out(&self.met_now);
+        }
     }
 
     /// What is wrong with a pair, if anything is; how it moves is left in `motions`.
@@ -323,6 +335,16 @@ fn laterals(task: &LineTask, graph: &PathTimeGraph) -> Vec<LateralProfile> {
         curves.extend(lateral_optimum(task.initial.l, &bounds, &mut Riccati::new()));
     }
     curves.into_iter().map(LateralProfile::new).collect()
+}
+
+/// Place of the rear axle and heading at the start.
+fn place_of(task: &LineTask) -> (Vec2, Vec2) {
+    let foot = task.line.at(task.initial.s[0]);
+    let [l, dl, _] = task.initial.l;
+    let forward = foot.pose.forward();
+    let left = Vec2::new(-forward.y, forward.x);
+    let heading = (forward * (1.0 - foot.kappa * l) + left * dl).normalize();
+    (foot.pose.position() + left * l, heading)
 }
 
 /// What the car has to keep clear of: all but what is behind it in its lane.

@@ -6,7 +6,7 @@
 use super::PlanningTarget;
 use super::bundle::Longitudinal;
 use super::combine::Motions;
-use super::cost::comfort_of;
+use super::cost::comfort_sampled;
 use super::curve::Curve;
 use super::evaluator::{Pair, PairCosts, Unfit, unfit};
 use super::path_time_graph::PathTimeEntry;
@@ -47,7 +47,7 @@ impl Lattice<'_> {
             self.lay(sampled, &mut laid);
             for lateral in 0..self.laterals.len() {
                 let rejection = self.rejection(&laid, lateral, &mut motions);
-                let comfort = comfort_of(sampled, &motions.lateral);
+                let comfort = comfort_sampled(sampled, &self.laterals[lateral].curve, &motions.lateral);
                 let pair = Pair {
                     longitudinal,
                     lateral,

@@ -1,17 +1,15 @@
 //! The lattice planner: one tick from frame to decision. Every line is planned for itself; the cheapest one is driven.
 
+use super::ground::{self, Ground, OWN_LANE, STANDS, STOPPED};
 use crate::config::Config;
 use crate::context::{Context, LastPath, LastTrajectory};
-use crate::decision::{Decision, Fallback, FallbackCause, Outcome, SpeedRung, Stop, StopCause};
+use crate::decision::{Decision, Fallback, FallbackCause, Outcome, SpeedRung, Stop};
 use crate::fallback;
 use crate::frame::{Command, Frame};
-use crate::geometry::Vec2;
-use crate::geometry::frenet::{FrenetMotion, PlaneMotion};
-use crate::lattice::{self, Lattice, LineTable, LineTask, Planned, PlanningTarget};
-use crate::reference_line::{LineQuery, ReferenceLine};
+use crate::lattice::{self, Lattice, LineTask, Planned, PlanningTarget};
+use crate::reference_line::LineQuery;
 use crate::st_graph::StPair;
 use crate::tasks::lane_change;
-use crate::tasks::path_bounds::{Borrow, Label, LaneType};
 use crate::tasks::start_point::{StartPoint, start_point};
 use crate::vehicle::VehicleParams;
 
@@ -19,46 +17,11 @@ use crate::vehicle::VehicleParams;
 const BACKUP_COST: f64 = 1e3;
 const LAST_RESORT_COST: f64 = 1e6;
 
-/// A slower car stands, m/s: it no longer slows down, whatever was measured.
-const STANDS: f64 = 0.05;
-
-/// Lateral acceleration that the cruise speed allows in bends, m/s²: half of what may be driven.
-const BEND_ACCELERATION: f64 = 2.0;
-
-/// Braking with which a lower limit ahead is reached, m/s².
-const EASY_BRAKING: f64 = 1.5;
-
-/// The way that is looked ahead for lower limits, m.
-const LOOK_AHEAD: f64 = 100.0;
-
-/// Curvature below this limits no speed, 1/m.
-const STRAIGHT: f64 = 1e-4;
-
-/// The car stops this far before the end of its line, m: its last point is still on it.
-const LINE_END: f64 = 0.1;
-
-/// The line is known this far behind the car and beyond what it can reach, m.
-const BEHIND: f64 = 10.0;
-const BEYOND: f64 = 40.0;
-
-/// The path is told at least as far as this, m: a car that stands has one, too.
-const LEAST_PATH: f64 = 5.0;
-
-/// Slower than this at its end a trajectory stops, m/s.
-const STOPPED: f64 = 0.2;
-
 /// Decides tick after tick with fixed settings; what changes is in the [`Context`].
 #[derive(Clone, Debug)]
 pub struct LatticePlanner {
     config: Config,
     vehicle: VehicleParams,
-}
-
-/// What a plan along one line starts from.
-struct Ground {
-    initial: FrenetMotion,
-    target: PlanningTarget,
-    table: LineTable,
 }
 
 /// What came of one line.
@@ -176,7 +139,7 @@ impl LatticePlanner {
         is_preferred: bool,
         start: &StartPoint,
     ) -> Option<OfLine> {
-        let ground = self.ground(frame, place, start)?;
+        let ground = Ground::of(frame, place, start, &self.vehicle)?;
         let (planned, stop) = self.with_lattice(frame, place, &ground, |lattice| {
             let planned = lattice.plan()?;
             let stop = stop(lattice, &planned, frame, &ground.target);
@@ -200,19 +163,6 @@ impl LatticePlanner {
         })
     }
 
-    fn ground(&self, frame: &Frame, place: usize, start: &StartPoint) -> Option<Ground> {
-        let line = &*frame.lines[place].line;
-        let initial = initial_state(line, start)?;
-        let [s, v, _] = initial.s;
-        let target = target(frame, line, s);
-        let reach = (v.max(target.cruise_speed) + self.vehicle.max_acceleration) * lattice::HORIZON + BEYOND;
-        Some(Ground {
-            initial,
-            target,
-            table: LineTable::sampled(line, s - BEHIND, s + reach)?,
-        })
-    }
-
     /// What `then` makes of the lattice along a line.
     fn with_lattice<T>(
         &self,
@@ -223,13 +173,7 @@ impl LatticePlanner {
     ) -> T {
         let line = &*frame.lines[place].line;
         let lane_width = |s| line.lane_width(s);
-        let project = |point: Vec2, near: f64| {
-            if near.is_finite() {
-                line.to_frenet_near(point, near)
-            } else {
-                line.to_frenet(point)
-            }
-        };
+        let project = lattice::projection(line);
         then(&Lattice::new(LineTask {
             line: &ground.table,
             initial: ground.initial,
@@ -258,59 +202,6 @@ fn cheapest(lines: &[OfLine]) -> Option<&OfLine> {
     lines.iter().min_by(|a, b| a.cost.sum().total_cmp(&b.cost.sum()))
 }
 
-/// The own lane, as a bound would be labelled.
-const OWN_LANE: Label = Label::Regular {
-    borrow: Borrow::None,
-    lane: LaneType::Own,
-};
-
-/// How fast the car may drive along a line, and where it has to stop.
-fn target(frame: &Frame, line: &ReferenceLine, s: f64) -> PlanningTarget {
-    let end = line.length() - LINE_END;
-    let cruise_speed = cruise_speed(line, s).min(frame.cruise_speed);
-    let (cruise_speed, place) = match frame.command {
-        Command::PullOver(place) => (cruise_speed, line.to_frenet(place).s),
-        // Anywhere will do, so there is no place that could be missed.
-        Command::EmergencyPullOver => (0.0, end),
-        Command::Cruise | Command::ChangeLane(_) => (cruise_speed, end),
-    };
-    PlanningTarget {
-        cruise_speed,
-        stop_s: Some(place.min(end)),
-    }
-}
-
-/// The motion along a line at its exact foot.
-fn initial_state(line: &ReferenceLine, start: &StartPoint) -> Option<FrenetMotion> {
-    let at = line.to_frenet(start.pose.position());
-    let a = if start.v < STANDS {
-        start.a.max(0.0)
-    } else {
-        start.a
-    };
-    lattice::foot_on(line, at.s).to_frenet(&PlaneMotion {
-        pose: start.pose,
-        kappa: start.kappa,
-        v: start.v,
-        a,
-    })
-}
-
-/// The highest speed from which all limits ahead can be kept with easy braking, m/s.
-fn cruise_speed(line: &ReferenceLine, s: f64) -> f64 {
-    let samples = line.samples();
-    let here = samples.partition_point(|sample| sample.s <= s).saturating_sub(1);
-    let ahead = samples[here..]
-        .iter()
-        .take_while(|sample| sample.s <= s + LOOK_AHEAD);
-    let reachable = |sample: &crate::reference_line::LineSample| {
-        let bend = (BEND_ACCELERATION / sample.point.kappa.abs().max(STRAIGHT)).sqrt();
-        let limit = sample.speed_limit.unwrap_or(f64::MAX).min(bend);
-        (limit * limit + 2.0 * EASY_BRAKING * (sample.s - s).max(0.0)).sqrt()
-    };
-    ahead.map(reachable).fold(f64::MAX, f64::min)
-}
-
 /// Why the car stops, if it does.
 fn stop(lattice: &Lattice, planned: &Planned, frame: &Frame, target: &PlanningTarget) -> Option<Stop> {
     let (first, last) = (planned.points.first()?, planned.points.last()?);
@@ -330,21 +221,8 @@ fn stop(lattice: &Lattice, planned: &Planned, frame: &Frame, target: &PlanningTa
     let before_stop =
         |entry: &&lattice::PathTimeEntry| target.stop_s.is_none_or(|stop_s| entry.leaves.lower < stop_s);
     let cause = match nearest.filter(before_stop) {
-        Some(entry) => {
-            let stands = frame
-                .obstacles
-                .iter()
-                .any(|obstacle| obstacle.id == entry.id && obstacle.is_static);
-            if stands {
-                StopCause::Blocked(entry.id)
-            } else {
-                StopCause::Follow(entry.id)
-            }
-        }
-        None if matches!(frame.command, Command::PullOver(_) | Command::EmergencyPullOver) => {
-            StopCause::PullOver
-        }
-        None => StopCause::Destination,
+        Some(entry) => ground::stop_behind(frame, entry.id),
+        None => ground::end_of_drive(frame),
     };
     Some(Stop {
         distance: last.s - first.s,
@@ -369,12 +247,11 @@ fn conclude(best: &OfLine, start: &StartPoint) -> Decision {
     });
     let [s, ..] = best.ground.initial.s;
     let end = best.planned.points.last().map_or(s, |last| last.s);
-    let end = end.max(s + LEAST_PATH) + 1.0;
     Decision {
         line: best.place,
         candidates: Vec::new(),
         chosen: None,
-        path: lattice::path(&best.ground.table, &best.planned.lateral, s, end),
+        path: ground::path(&best.ground.table, &best.planned.lateral, s, end),
         trajectory: lattice::trajectory(&best.planned.points),
         stop: best.stop,
         outcome,

@@ -1,5 +1,7 @@
 //! Planners: nothing but the order of the tasks.
 
+mod baseline;
+mod ground;
 mod lane_follow;
 mod lattice;
 mod plan;
@@ -8,6 +10,7 @@ mod report;
 mod stage;
 mod task;
 
+pub use baseline::BaselinePlanner;
 pub use lane_follow::Planner;
 pub use lattice::{LatticePlanner, LatticeSurvey, LineCost};
 pub use plan::LinePlan;

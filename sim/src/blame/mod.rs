@@ -219,7 +219,7 @@ impl Replaced {
             Self::Planner => {
                 changed.decider.planner = match settings.decider.planner {
                     PlannerKind::LaneFollow => PlannerKind::Lattice,
-                    PlannerKind::Lattice => PlannerKind::LaneFollow,
+                    _ => PlannerKind::LaneFollow,
                 }
             }
         }

@@ -108,6 +108,7 @@ impl Outputs {
         }
         if let Some(folder) = &self.out {
             output::write(&folder.join("report.txt"), &to_table(report, Colour::Never))?;
+            output::write(&folder.join("coverage.txt"), &report.coverage().to_table())?;
         }
         Ok(())
     }

@@ -18,6 +18,9 @@ pub(crate) struct PlannerChoice {
 pub(crate) enum Name {
     LaneFollow,
     Lattice,
+    Blind,
+    Idm,
+    PdmClosed,
 }
 
 impl Name {
@@ -26,6 +29,9 @@ impl Name {
         match self {
             Self::LaneFollow => "lane_follow",
             Self::Lattice => "lattice",
+            Self::Blind => "blind",
+            Self::Idm => "idm",
+            Self::PdmClosed => "pdm_closed",
         }
     }
 
@@ -64,7 +70,7 @@ fn known() -> String {
     let names = Name::value_variants()
         .iter()
         .map(|name| format!("`{}`", name.text()));
-    names.collect::<Vec<String>>().join(" and ")
+    names.collect::<Vec<String>>().join(", ")
 }
 
 /// Whether this is the setting that chooses the planner.

@@ -12,6 +12,7 @@ use corridor_decider::reference_line::LineQuery;
 use corridor_decider::tasks::path_bounds::{Borrow, Label, LaneType};
 use corridor_scenarios::scenario::Behaviour;
 use corridor_scenarios::{Parameter, Scenario};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Bins of a number that is drawn.
@@ -33,7 +34,7 @@ const SPEEDS: [f64; 7] = [0.0, 4.0, 6.0, 8.0, 10.0, 13.0, 17.0];
 const CURVATURES: [f64; 6] = [0.0, 0.002, 0.005, 0.0083, 0.0167, 0.05];
 
 /// What the run of a scenario is like, before anybody drives.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Situation {
     /// Free width beside the narrowest obstacle, m; nothing where none stands beside the way.
     pub gap: Option<f64>,
@@ -93,7 +94,7 @@ impl Situation {
 }
 
 /// What was decided in a run: ticks by the label driven and by rung. A sink to run beside others.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Decided {
     /// Ticks by the label of the bound that was driven.
     pub labels: BTreeMap<String, u64>,

@@ -3,7 +3,7 @@
 
 use super::histogram::Histogram;
 use super::table::percentage;
-use super::{Group, ScenarioSummary, SweepReport};
+use super::{Coverage, Group, ScenarioSummary, SweepReport};
 use crate::sweep::statistics::{CONFIDENCE, failure_rate_bound};
 use std::fmt::Write;
 
@@ -23,6 +23,7 @@ pub fn to_html(report: &SweepReport) -> String {
     page.push_str(&head(report));
     page.push_str(&groups(&report.groups()));
     page.push_str(&scenarios(&report.scenarios()));
+    page.push_str(&coverage(report.coverage()));
     page.push_str("<h2>How the metrics spread</h2><div class=\"plots\">\n");
     report
         .histograms()
@@ -125,6 +126,57 @@ fn scenario(summary: &ScenarioSummary) -> String {
         summary.rejected,
         percentage(summary.failure_rate_bound),
     )
+}
+
+/// What was tried and what was not: the bins of the situations with their counts, and the numbers of families with bins
+/// that no run fell into.
+fn coverage(coverage: &Coverage) -> String {
+    let mut text = "<h2>What was tried</h2>\n<table><tr><th class=\"text\">over all runs</th><th class=\"text\">bins and how often \
+                    each was met</th></tr>\n"
+        .to_owned();
+    for (name, bins) in coverage.situations() {
+        let cell = |(bin, count): &(String, u64)| match count {
+            0 => format!("<span class=\"bad\">{}: never</span>", escaped(bin)),
+            count => format!("{}: {count}", escaped(bin)),
+        };
+        let cells: Vec<String> = bins.counts().iter().map(cell).collect();
+        let _ = writeln!(
+            text,
+            "<tr><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>",
+            escaped(name),
+            cells.join(" · ")
+        );
+    }
+    text.push_str("</table>\n");
+    let all = coverage
+        .parameters()
+        .map(|(.., bins)| bins.counts().len())
+        .sum::<usize>();
+    let missed: Vec<String> = coverage
+        .parameters()
+        .filter(|(.., bins)| bins.empty().next().is_some())
+        .map(|(family, key, bins)| {
+            let empty: Vec<&str> = bins.empty().collect();
+            format!("{family} {key}: {}", empty.join("; "))
+        })
+        .collect();
+    let empty = coverage
+        .parameters()
+        .map(|(.., bins)| bins.empty().count())
+        .sum::<usize>();
+    let _ = writeln!(
+        text,
+        "<p>Of the numbers that families draw, {} of {all} bins were met.</p>",
+        all - empty
+    );
+    if !missed.is_empty() {
+        let _ = writeln!(
+            text,
+            "<details><summary>bins that no run fell into</summary><p>{}</p></details>",
+            escaped(&missed.join("\n")).replace('\n', "<br>")
+        );
+    }
+    text
 }
 
 /// Bars, failed runs stacked on passed ones; the outermost bars hold what lies beyond the axis.

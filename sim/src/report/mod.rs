@@ -4,8 +4,8 @@
 //! is a pure function of them in any order; wall times are kept beside what is hashed or compared, never in it.
 
 mod comparison;
-mod csv;
 mod coverage;
+mod csv;
 mod digest;
 mod faults;
 mod grid;
@@ -20,11 +20,11 @@ mod table;
 mod times;
 
 pub use comparison::{Comparison, comparison_to_json, comparison_to_table};
+pub use coverage::{Bins, Coverage, Decided, Situation};
 pub use csv::Csv;
 pub use faults::{findings_to_json, findings_to_table};
 pub use groups::{Example, Group};
 pub use html::to_html;
-pub use coverage::{Bins, Coverage, Decided, Situation};
 pub use json::to_json;
 pub use junit::{Junit, Totals};
 pub use summary::{PullOvers, ScenarioSummary};
@@ -55,6 +55,7 @@ pub struct SweepReport {
     rejected: BTreeMap<String, u64>,
     groups: Groups,
     histograms: Histograms,
+    coverage: Coverage,
     digest: Digest,
     cycles: CycleTimes,
     wall_time: Duration,
@@ -69,6 +70,10 @@ impl SweepReport {
         }
         self.groups.add(row);
         self.histograms.add(row);
+        if let Some(tried) = &row.tried {
+            self.coverage
+                .add(&row.scenario, &tried.parameters, &tried.situation, &tried.decided);
+        }
         self.digest.add(row);
         self.cycles.merge(&row.cycles);
         self.wall_time += row.wall_time;
@@ -103,6 +108,11 @@ impl SweepReport {
     /// The failures by what kind of failure they are: the most frequent first.
     pub fn groups(&self) -> Vec<&Group> {
         self.groups.by_count()
+    }
+
+    /// What was tried, and what was not.
+    pub fn coverage(&self) -> &Coverage {
+        &self.coverage
     }
 
     fn histograms(&self) -> impl Iterator<Item = &Histogram> {

@@ -62,6 +62,7 @@ fn row(scenario: &str, seed: u64, collisions: f64) -> SweepRow {
         result: RunResult::Judged(Box::new(verdict.into())),
         has_goal: true,
         rejected: BTreeMap::from([("overlap at the start".to_owned(), 2)]),
+        tried: None,
         replay: format!("corridor run {scenario} --seed {seed}"),
         wall_time: Duration::from_millis(10 * seed),
         cycles: CycleTimes::default(),

@@ -19,10 +19,12 @@ mod stopwatch;
 pub use claim::{Claim, Standing};
 pub use compare::compare;
 pub use plan::{Job, Plan, Shard};
-pub use row::{Judgement, RunResult, SweepRow};
+pub use row::{Judgement, RunResult, SweepRow, Tried};
 pub use stopwatch::{CycleTimes, Stopwatch};
 
+use crate::both::Both;
 use crate::decider;
+use crate::report::{Decided, Situation};
 use crate::run::run_into;
 use crate::settings::{SettingError, Settings};
 use corridor_scenarios::Drawn;
@@ -110,6 +112,7 @@ fn row(plan: &Plan, job: Job, variant: &Variant) -> SweepRow {
         result: RunResult::Broken(String::new()),
         has_goal: false,
         rejected: BTreeMap::new(),
+        tried: None,
         replay: replay_command(given, job.seed, &variant.overrides),
         wall_time: Duration::ZERO,
         cycles: CycleTimes::default(),
@@ -129,11 +132,11 @@ fn judged(row: SweepRow, drawn: &Drawn, settings: &Settings) -> SweepRow {
     for rejection in &drawn.rejected {
         *rejected.entry(rejection.reason().to_owned()).or_insert(0) += 1;
     }
-    let mut watch = Stopwatch::default();
+    let (mut watch, mut decided) = (Stopwatch::default(), Decided::default());
     // A decider that panics is judged; a panic of anything else breaks its own run and no other.
     let run = || {
         catch_unwind(AssertUnwindSafe(|| {
-            run_into(&drawn.scenario, settings, &mut watch)
+            run_into(&drawn.scenario, settings, &mut Both(&mut watch, &mut decided))
         }))
     };
     let (verdict, wall_time) = timed(run);
@@ -147,6 +150,11 @@ fn judged(row: SweepRow, drawn: &Drawn, settings: &Settings) -> SweepRow {
         result,
         has_goal: expect.goal().is_some() || expect.goal_region().is_some(),
         rejected,
+        tried: Some(Box::new(Tried {
+            parameters: drawn.parameters.clone(),
+            situation: Situation::of(&drawn.scenario),
+            decided,
+        })),
         wall_time,
         cycles: watch.cycles,
         ..row

@@ -1,8 +1,10 @@
 //! One run of a sweep: what is kept of it, and how it stands in a line of a results file.
 
 use super::CycleTimes;
+use crate::report::{Decided, Situation};
 use crate::signature::Signature;
 use crate::verdict::{Collision, Ending, Metric, Verdict};
+use corridor_scenarios::Parameter;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -25,6 +27,9 @@ pub struct SweepRow {
     /// How often the drawn scenario was rejected before this one, by reason.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub rejected: BTreeMap<String, u32>,
+    /// What was tried; absent where nothing was run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tried: Option<Box<Tried>>,
     /// The command that runs it again.
     pub replay: String,
     /// How long it took on this machine. Neither hashed nor written.
@@ -33,6 +38,17 @@ pub struct SweepRow {
     /// How long the decider took for its answers on this machine. Neither hashed nor written.
     #[serde(skip)]
     pub cycles: CycleTimes,
+}
+
+/// What a run tried: of such the coverage of a sweep is counted.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tried {
+    /// The numbers that its family drew.
+    pub parameters: Vec<Parameter>,
+    /// What the scenario is like.
+    pub situation: Situation,
+    /// What was decided in it.
+    pub decided: Decided,
 }
 
 /// What came of a run.
@@ -186,6 +202,7 @@ mod tests {
             result: RunResult::Judged(Box::new(verdict.into())),
             has_goal: true,
             rejected: BTreeMap::from([("overlap".to_owned(), 2)]),
+            tried: None,
             replay: "corridor run nudge".to_owned(),
             wall_time: Duration::from_secs(3),
             cycles: CycleTimes::default(),

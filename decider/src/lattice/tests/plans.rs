@@ -173,6 +173,20 @@ fn a_wall_right_ahead_is_no_secret() {
     assert!((pair.deceleration - VehicleParams::default().max_deceleration).abs() < 1e-12);
 }
 
+/// Nearer than the room that is kept, a car that stands waits; that is no emergency, and no reason to go nearer.
+#[test]
+fn who_stands_too_near_waits() {
+    let line = bend(1.0);
+    let front = VehicleParams::default().front_edge_to_center;
+    for gap in [0.3, 1.0, 1.99, 2.01] {
+        let blocker = [body(&line, 1, (30.0 + front + gap + 2.2, 0.0), 0.0)];
+        let plan = planned(&line, [0.0; 3], 0.0, &blocker, 390.0);
+        assert!(is_found(&plan), "{gap}: {:?}", plan.outcome);
+        let (first, last) = (plan.points[0], plan.points[plan.points.len() - 1]);
+        assert!(last.s - first.s < 0.1, "{gap}: {}", last.s - first.s);
+    }
+}
+
 #[test]
 fn the_backup_brakes_no_harder_than_it_must() {
     let line = bend(1.0);

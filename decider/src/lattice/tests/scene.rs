@@ -64,13 +64,7 @@ pub(super) fn with_lattice<T>(
     let table = LineTable::sampled(line, 0.0, 400.0).unwrap();
     let (vehicle, config) = (VehicleParams::default(), LatticeConfig::default());
     let lane_width = |s| line.lane_width(s);
-    let project = |point: Vec2, near: f64| {
-        if near.is_finite() {
-            line.to_frenet_near(point, near)
-        } else {
-            line.to_frenet(point)
-        }
-    };
+    let project = projection(line);
     then(&Lattice::new(LineTask {
         line: &table,
         initial,

@@ -48,6 +48,7 @@ fn run(seed: u64, progress: f64) -> SweepRow {
         result: RunResult::Judged(Box::new(verdict.into())),
         has_goal: true,
         rejected: BTreeMap::from([("overlap at the start".to_owned(), 1)]),
+        tried: None,
         replay: format!("corridor run street --seed {seed}"),
         wall_time: Duration::from_millis(seed),
         cycles: CycleTimes::default(),

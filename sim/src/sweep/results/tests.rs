@@ -43,6 +43,7 @@ fn row(job: u64) -> SweepRow {
         result: RunResult::Judged(Box::new(judgement)),
         has_goal: true,
         rejected: BTreeMap::new(),
+        tried: None,
         replay: String::new(),
         wall_time: Duration::ZERO,
         cycles: CycleTimes::default(),
