@@ -3,16 +3,23 @@
 use super::output;
 use anyhow::Context;
 use clap::Args;
-use corridor_sim::report::{Colour, Csv, Junit, SweepReport, Totals, to_html, to_json, to_table};
+use corridor_scenarios::{Drawn, Family, MapCache};
+use corridor_sim::blame::blame;
+use corridor_sim::report::{Colour, Csv, Group, Junit, SweepReport, Totals, to_html, to_json, to_table};
 use corridor_sim::run;
+use corridor_sim::shrink::{Demand, shrink};
 use corridor_sim::sweep::results::Results;
 use corridor_sim::sweep::{Plan, Variant};
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
 /// Kinds of failures of which `--out` keeps a trace. One shows a cause; hundreds fill a disk.
 const TRACES_KEPT: usize = 20;
+
+/// Runs that making a failure small may take in an inquest.
+const SHRINK_RUNS: u32 = 150;
 
 /// Files to write.
 #[derive(Args, Clone, Debug, Default)]
@@ -36,6 +43,9 @@ pub(crate) struct Outputs {
     /// and below it a folder of these for each planner.
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+    /// Of each kind of failure, make its example small and find out whose fault it is: seconds for each.
+    #[arg(long, requires = "out")]
+    inquest: bool,
 }
 
 /// Where the results file is: where the user wants it, or out of the way for as long as the reports need it.
@@ -126,13 +136,14 @@ impl Outputs {
     }
 
     /// Runs the smallest example of each kind of failure again, with a trace.
-    pub(super) fn keep_traces(
+    pub(super) fn keep_failures(
         &self,
         plan: &Plan,
         variant: &Variant,
         report: &SweepReport,
     ) -> anyhow::Result<()> {
         let Some(folder) = &self.out else { return Ok(()) };
+        let mut told = String::new();
         for group in report.groups().into_iter().take(TRACES_KEPT) {
             let example = &group.smallest;
             let Some(family) = plan.find(&example.scenario) else {
@@ -141,18 +152,49 @@ impl Outputs {
             let Ok(drawn) = family.draw(example.seed) else {
                 continue;
             };
-            let name = example.scenario.replace(['/', '\\'], "_");
-            let path = folder.join(format!("{name}-{}.trace.zst", example.seed));
-            run::run_traced(
-                family,
-                &drawn.scenario,
-                &variant.overrides,
-                &variant.settings,
-                &path,
-            )?;
+            let name = format!("{}-{}", example.scenario.replace(['/', '\\'], "_"), example.seed);
+            let trace = folder.join(format!("{name}.trace.zst"));
+            run::run_traced(family, &drawn.scenario, &variant.overrides, &variant.settings, &trace)?;
+            if self.inquest {
+                told.push_str(&inquest(folder, &name, (family, &drawn), group, variant)?);
+            }
+        }
+        if self.inquest {
+            output::write(&folder.join("inquest.txt"), &told)?;
         }
         Ok(())
     }
+}
+
+/// Makes the example of a kind of failure small, and tells whose fault it is.
+fn inquest(
+    folder: &Path,
+    name: &str,
+    (family, drawn): (&Family, &Drawn),
+    group: &Group,
+    variant: &Variant,
+) -> anyhow::Result<String> {
+    let mut text = format!("{} x {}\n  {}\n", group.count, group.kind, group.smallest.replay);
+    if let Some(blame) = blame(&drawn.scenario, &variant.settings) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {blame}");
+    }
+    let demand = Demand {
+        settings: &variant.settings,
+        sound: None,
+        keeps_map: false,
+    };
+    // A recorded scene has no file that could be made small.
+    if let Ok(shrunk) = shrink(family, group.smallest.seed, &demand, SHRINK_RUNS, &MapCache::new()) {
+        let [before, after] = &shrunk.sizes;
+        output::write(&folder.join(format!("{name}.toml")), &shrunk.text)?;
+        let _ = writeln!(
+            text,
+            "  {name}.toml: {} of {} obstacles, {:.1} of {:.1} s",
+            after.obstacles, before.obstacles, after.duration, before.duration
+        );
+    }
+    Ok(text + "\n")
 }
 
 fn write_junit(path: &Path, place: &Path, report: &SweepReport) -> anyhow::Result<()> {

@@ -103,7 +103,7 @@ impl Sweep {
         }
         if let Some(place) = &place {
             self.outputs.write(place.path(), &report)?;
-            self.outputs.keep_traces(&plan, &variant, &report)?;
+            self.outputs.keep_failures(&plan, &variant, &report)?;
         } else {
             self.outputs.write_json(&report)?;
         }

@@ -115,7 +115,7 @@ impl Sweep {
             let outputs = Outputs::folder(folder.join(&variant.name));
             let place = folder.join(&variant.name).join("results.jsonl");
             outputs.write(&place, report)?;
-            outputs.keep_traces(plan, variant, report)?;
+            outputs.keep_failures(plan, variant, report)?;
         }
         Ok(())
     }
