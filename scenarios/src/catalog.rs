@@ -16,6 +16,8 @@ pub struct Entry {
     pub needs_shared_maps: bool,
     /// Whether it is one of the hard families: whoever keeps his lane and his speed fails there.
     pub is_hard: bool,
+    /// Whether it is a run that failed once and shall not again.
+    pub is_regression: bool,
 }
 
 macro_rules! own {
@@ -25,6 +27,7 @@ macro_rules! own {
             text: include_str!(concat!("../catalog/", $name, ".toml")),
             needs_shared_maps: false,
             is_hard: false,
+            is_regression: false,
         }
     };
 }
@@ -36,6 +39,7 @@ macro_rules! real {
             text: include_str!(concat!("../catalog/real/", $name, ".toml")),
             needs_shared_maps: true,
             is_hard: false,
+            is_regression: false,
         }
     };
 }
@@ -47,6 +51,7 @@ macro_rules! hard {
             text: include_str!(concat!("../catalog/hard/", $name, ".toml")),
             needs_shared_maps: false,
             is_hard: true,
+            is_regression: false,
         }
     };
 }
@@ -58,9 +63,29 @@ macro_rules! hard_real {
             text: include_str!(concat!("../catalog/hard/real/", $name, ".toml")),
             needs_shared_maps: true,
             is_hard: true,
+            is_regression: false,
         }
     };
 }
+
+macro_rules! regression {
+    ($name:literal) => {
+        Entry {
+            name: $name,
+            text: include_str!(concat!("../regressions/", $name, ".toml")),
+            needs_shared_maps: false,
+            is_hard: false,
+            is_regression: true,
+        }
+    };
+}
+
+/// Runs that failed once, with fixed numbers: they come before all else in every sweep of the catalog, and stay.
+pub const REGRESSIONS: &[Entry] = &[
+    regression!("lane_change_gap_sweep_92"),
+    regression!("leader_sweep_16"),
+    regression!("pull_over_gap_sweep_41"),
+];
 
 /// All entries: first those on own maps, then those on shared ones, then the hard ones in the same order, each by name.
 pub const ENTRIES: &[Entry] = &[
@@ -173,7 +198,8 @@ pub const ENTRIES: &[Entry] = &[
 
 /// The entry of this name.
 pub fn find(name: &str) -> Option<&'static Entry> {
-    ENTRIES.iter().find(|entry| entry.name == name)
+    let mut all = ENTRIES.iter().chain(REGRESSIONS);
+    all.find(|entry| entry.name == name)
 }
 
 impl Entry {
@@ -188,6 +214,9 @@ impl Entry {
 
     /// The folder that holds its file.
     pub fn folder(&self) -> &'static str {
+        if self.is_regression {
+            return "regressions";
+        }
         match (self.is_hard, self.needs_shared_maps) {
             (false, false) => "catalog",
             (false, true) => "catalog/real",

@@ -1,7 +1,7 @@
 //! Every file of the catalog is in the program, can be read, and gives a scenario for every seed.
 
 use corridor_decider::reference_line::LineQuery;
-use corridor_scenarios::catalog::{self, ENTRIES};
+use corridor_scenarios::catalog::{self, ENTRIES, REGRESSIONS};
 use corridor_scenarios::scenario::Expectation;
 use corridor_scenarios::{Family, MapCache, ScenarioError};
 use std::collections::{BTreeMap, BTreeSet};
@@ -13,7 +13,7 @@ const SEEDS: u64 = 20;
 pub(crate) fn families() -> Vec<(&'static str, Family)> {
     let maps = MapCache::new();
     let mut families = Vec::new();
-    for entry in ENTRIES {
+    for entry in REGRESSIONS.iter().chain(ENTRIES) {
         match entry.load(&maps) {
             Ok(family) => families.push((entry.name, family)),
             Err(ScenarioError::SharedMapsAbsent { .. })
@@ -44,6 +44,14 @@ fn the_program_holds_exactly_the_files_of_the_folder() {
         let listed: BTreeSet<String> = entries.map(|entry| entry.name.to_owned()).collect();
         assert_eq!(listed, names_in(folder));
     }
+    let kept: BTreeSet<String> = REGRESSIONS.iter().map(|entry| entry.name.to_owned()).collect();
+    assert_eq!(kept, names_in("regressions"));
+    assert!(
+        families()
+            .iter()
+            .filter(|(name, _)| kept.contains(*name))
+            .all(|(_, family)| family.is_fixed())
+    );
     let mut sorted = ENTRIES.to_vec();
     sorted.sort_by_key(|entry| (entry.is_hard, entry.needs_shared_maps, entry.name));
     assert_eq!(sorted, ENTRIES);

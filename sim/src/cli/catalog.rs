@@ -15,18 +15,16 @@ impl List {
     #[expect(clippy::unused_self, reason = "all verbs are executed alike")]
     pub(crate) fn execute(&self) -> anyhow::Result<Gate> {
         let maps = MapCache::new();
-        let width = catalog::ENTRIES
-            .iter()
-            .map(|entry| entry.name.len())
-            .max()
-            .unwrap_or(0);
-        for entry in catalog::ENTRIES {
+        let entries = || catalog::REGRESSIONS.iter().chain(catalog::ENTRIES);
+        let width = entries().map(|entry| entry.name.len()).max().unwrap_or(0);
+        for entry in entries() {
             match entry.load(&maps) {
                 Ok(family) => {
-                    let kind = match (family.is_fixed(), entry.is_hard) {
-                        (true, _) => "scenario",
-                        (false, false) => "family  ",
-                        (false, true) => "hard    ",
+                    let kind = match (entry.is_regression, family.is_fixed(), entry.is_hard) {
+                        (true, ..) => "kept    ",
+                        (false, true, _) => "scenario",
+                        (false, false, false) => "family  ",
+                        (false, false, true) => "hard    ",
                     };
                     output::print(&format!(
                         "{:width$}  {kind}  {}\n",

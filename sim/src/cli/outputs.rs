@@ -154,7 +154,13 @@ impl Outputs {
             };
             let name = format!("{}-{}", example.scenario.replace(['/', '\\'], "_"), example.seed);
             let trace = folder.join(format!("{name}.trace.zst"));
-            run::run_traced(family, &drawn.scenario, &variant.overrides, &variant.settings, &trace)?;
+            run::run_traced(
+                family,
+                &drawn.scenario,
+                &variant.overrides,
+                &variant.settings,
+                &trace,
+            )?;
             if self.inquest {
                 told.push_str(&inquest(folder, &name, (family, &drawn), group, variant)?);
             }
@@ -185,7 +191,13 @@ fn inquest(
         keeps_map: false,
     };
     // A recorded scene has no file that could be made small.
-    if let Ok(shrunk) = shrink(family, group.smallest.seed, &demand, SHRINK_RUNS, &MapCache::new()) {
+    if let Ok(shrunk) = shrink(
+        family,
+        group.smallest.seed,
+        &demand,
+        SHRINK_RUNS,
+        &MapCache::new(),
+    ) {
         let [before, after] = &shrunk.sizes;
         output::write(&folder.join(format!("{name}.toml")), &shrunk.text)?;
         let _ = writeln!(

@@ -46,7 +46,10 @@ pub(crate) fn select(given: &[String], maps: &MapCache) -> anyhow::Result<Select
             let wanted = catalog::ENTRIES
                 .iter()
                 .filter(|entry| name == CATALOG || entry.is_hard);
-            for entry in wanted {
+            let regressions = catalog::REGRESSIONS
+                .iter()
+                .filter(|_| !selection.has_regressions());
+            for entry in regressions.collect::<Vec<_>>().into_iter().chain(wanted) {
                 selection.add(entry.load(maps), entry.name.to_owned())?;
             }
         } else if Path::new(name).is_dir() {
@@ -62,6 +65,11 @@ pub(crate) fn select(given: &[String], maps: &MapCache) -> anyhow::Result<Select
 }
 
 impl Selection {
+    fn has_regressions(&self) -> bool {
+        let mut names = self.families.iter().map(|(family, _)| family.name());
+        names.any(|name| catalog::REGRESSIONS.iter().any(|entry| entry.name == name))
+    }
+
     fn add(&mut self, family: Result<Family, ScenarioError>, given: String) -> anyhow::Result<()> {
         match family {
             Ok(family) => self.families.push((family, given)),
