@@ -97,7 +97,7 @@ pub(super) const FAULTS: &[Spec] = &[
         "flickering_obstacles",
         "Obstacles are seen in one tick of three.",
         |frame, past| {
-            if past.tick() % FLICKER != 0 {
+            if !past.tick().is_multiple_of(FLICKER) {
                 frame.obstacles.clear();
             }
         },
@@ -124,7 +124,7 @@ pub(super) const FAULTS: &[Spec] = &[
     on_frame(
         "frozen_obstacles",
         "Obstacles stay where they were when they were first seen.",
-        |frame, past| freeze(frame, past),
+        freeze,
     ),
     on_frame(
         "points_for_bodies",

@@ -69,7 +69,7 @@ fn cells(finding: &Finding) -> [String; 12] {
         plant.name().to_owned(),
         result(finding).to_owned(),
         told(&|caught| caught.metric.clone()),
-        told(&|caught| ending(caught)),
+        told(&ending),
         told(&|caught| caught.scenario.clone()),
         told(&|caught| caught.seed.to_string()),
         finding.seeds.to_string(),
