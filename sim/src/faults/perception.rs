@@ -46,7 +46,7 @@ pub(super) const FAULTS: &[Spec] = &[
         |frame, _| mirror(frame),
     ),
     on_frame("obstacles_unseen", "No obstacle is seen.", |frame, _| {
-        frame.obstacles.clear()
+        frame.obstacles.clear();
     }),
     on_frame(
         "half_of_the_obstacles",
@@ -169,7 +169,7 @@ pub(super) const FAULTS: &[Spec] = &[
         "Headings are computed with the arguments of the arctangent swapped.",
         |frame, _| {
             each(frame, |obstacle| {
-                obstacle.pose.theta = angle::wrap(FRAC_PI_2 - obstacle.pose.theta)
+                obstacle.pose.theta = angle::wrap(FRAC_PI_2 - obstacle.pose.theta);
             });
         },
     ),
@@ -178,7 +178,7 @@ pub(super) const FAULTS: &[Spec] = &[
         "Headings in degrees are taken for radians.",
         |frame, _| {
             each(frame, |obstacle| {
-                obstacle.pose.theta = angle::wrap(obstacle.pose.theta.to_degrees())
+                obstacle.pose.theta = angle::wrap(obstacle.pose.theta.to_degrees());
             });
         },
     ),

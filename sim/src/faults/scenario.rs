@@ -116,7 +116,7 @@ pub(super) const FAULTS: &[Spec] = &[
         "Every line on the road may be crossed.",
         |frame, past| {
             lines(frame, past, |sample| {
-                sample.marks = (BoundaryType::DottedWhite, BoundaryType::DottedWhite)
+                sample.marks = (BoundaryType::DottedWhite, BoundaryType::DottedWhite);
             });
         },
     ),

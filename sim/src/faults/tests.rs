@@ -191,7 +191,9 @@ fn every_decorator_changes_what_it_is_planted_on() {
             Plant::Trajectory(_) => {
                 let mut planted = Planted::new(spec.into());
                 let (first, mut second) = (trajectory(), trajectory());
-                second.iter_mut().for_each(|point| point.v = 0.5);
+                for point in second.iter_mut() {
+                    point.v = 0.5;
+                }
                 let followed = [first.clone(), second.clone()].map(|points| planted.followed(&points));
                 followed != [Some(first), Some(second)]
             }

@@ -40,7 +40,9 @@ pub fn findings_to_table(findings: &[Finding]) -> String {
         "obstacles",
         "seconds",
     ]);
-    findings.iter().for_each(|finding| grid.row(cells(finding)));
+    for finding in findings {
+        grid.row(cells(finding));
+    }
     let mut text = String::new();
     for line in grid.lines() {
         text.push_str(line.trim_end());
