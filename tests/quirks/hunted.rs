@@ -1,5 +1,6 @@
 //! The hunt itself: a quick part of the set is caught, the same for any number of threads, and what changes nothing is
 //! never called caught.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use corridor_scenarios::{MapCache, catalog};
 use corridor_sim::faults::{Fault, Spec};

@@ -35,7 +35,7 @@ pub(super) const FAULTS: &[Spec] = &[
         "`l` of the bound has the wrong sign.",
         |plan, _| {
             points(plan, |point, _| {
-                (point.l_min, point.l_max) = (-point.l_max, -point.l_min)
+                (point.l_min, point.l_max) = (-point.l_max, -point.l_min);
             });
         },
     ),
@@ -44,7 +44,7 @@ pub(super) const FAULTS: &[Spec] = &[
         "Left and right limit are swapped.",
         |plan, _| {
             points(plan, |point, _| {
-                (point.l_min, point.l_max) = (point.l_max, point.l_min)
+                (point.l_min, point.l_max) = (point.l_max, point.l_min);
             });
         },
     ),
@@ -92,7 +92,7 @@ pub(super) const FAULTS: &[Spec] = &[
     ),
     on_bounds("bound_in_feet", "`l` is given in feet.", |plan, _| {
         points(plan, |point, _| {
-            (point.l_min, point.l_max) = (point.l_min * FEET, point.l_max * FEET)
+            (point.l_min, point.l_max) = (point.l_min * FEET, point.l_max * FEET);
         });
     }),
     on_bounds(

@@ -35,7 +35,7 @@ pub(super) const FAULTS: &[Spec] = &[
         "panic_one_in_a_thousand",
         "The decider panics in one tick of a thousand.",
         |frame| {
-            if mixed(frame) % RARE == 0 {
+            if mixed(frame).is_multiple_of(RARE) {
                 panicked();
             }
         },
@@ -44,8 +44,10 @@ pub(super) const FAULTS: &[Spec] = &[
         "answers_never",
         "From its eleventh tick on the decider goes on for ever.",
         |frame| {
-            while frame.tick >= SUDDEN {
-                steps::count();
+            if frame.tick >= SUDDEN {
+                loop {
+                    steps::count();
+                }
             }
         },
     ),
@@ -88,7 +90,7 @@ pub(super) const FAULTS: &[Spec] = &[
         "answers_rarely",
         "Only every tenth tick is decided anew; in between the old answer is given as if it were new.",
         |decision, past| match &past.decision {
-            Some(old) if past.tick() % SLOW != 0 => decision.clone_from(old),
+            Some(old) if !past.tick().is_multiple_of(SLOW) => decision.clone_from(old),
             _ => past.decision = Some(decision.clone()),
         },
     ),

@@ -1,4 +1,4 @@
-//! Where each fault was found, and which are known to show nowhere, and why: so that a hunt is quick, and honest.
+//! Where each fault was found, and which no gate has seen, and why that may be: so that a hunt is quick, and honest.
 //!
 //! A hint is no more than that: a fault that does not show there any more is hunted everywhere.
 
@@ -145,6 +145,7 @@ const SHOWN: &[(Hint, &[&str])] = &[
         ("jaywalker_from_left", 1),
         &["vulnerable_unseen", "prediction_in_kmh", "moving_ones_are_narrow"],
     ),
+    (("jaywalker_from_left", 4), &["brakes_capped"]),
     (
         ("lane_change_gap_sweep", 1),
         &["target_lane_forgotten", "answers_the_frame_before"],
@@ -159,7 +160,8 @@ const SHOWN: &[(Hint, &[&str])] = &[
     (("stopped_leader", 1), &["emergency_brake_ignored"]),
 ];
 
-/// Faults that no gate sees in any scenario of the catalog, and why.
+/// Faults that no gate saw in a round through the whole catalog and in seeds that were chosen for them, and the likely
+/// reason. They are holes in the net that are known, not faults that are harmless.
 const UNSEEN: &[(&str, &str)] = &[
     (
         "marks_unread",
@@ -252,10 +254,6 @@ const UNSEEN: &[(&str, &str)] = &[
     (
         "tracker_wheel_base_long",
         "The feedback takes back what is steered too much.",
-    ),
-    (
-        "brakes_capped",
-        "The planner brakes earlier than it must, at less than 2 m/s² in all but the surprises.",
     ),
     (
         "arbitrary_blocker",

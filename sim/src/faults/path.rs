@@ -90,9 +90,9 @@ pub(super) const FAULTS: &[Spec] = &[
         "front_axle_for_rear_axle",
         "The path is one for the front axle, and the rear one follows it.",
         |points, _| {
-            points
-                .iter_mut()
-                .for_each(|point| point.pose = point.pose.advanced(WHEEL_BASE));
+            for point in points.iter_mut() {
+                point.pose = point.pose.advanced(WHEEL_BASE);
+            }
         },
     ),
     on_trajectory(
@@ -125,16 +125,18 @@ pub(super) const FAULTS: &[Spec] = &[
         "curvature_sign",
         "The curvature that the tracker is given has the wrong sign.",
         |points, _| {
-            points.iter_mut().for_each(|point| point.kappa = -point.kappa);
+            for point in points.iter_mut() {
+                point.kappa = -point.kappa;
+            }
         },
     ),
     on_trajectory(
         "headings_of_the_path_in_degrees",
         "The headings that the tracker is given are in degrees.",
         |points, _| {
-            points
-                .iter_mut()
-                .for_each(|point| point.pose.theta = angle::wrap(point.pose.theta.to_degrees()));
+            for point in points.iter_mut() {
+                point.pose.theta = angle::wrap(point.pose.theta.to_degrees());
+            }
         },
     ),
 ];

@@ -46,7 +46,7 @@ pub(super) const FAULTS: &[Spec] = &[
         |frame, _| mirror(frame),
     ),
     on_frame("obstacles_unseen", "No obstacle is seen.", |frame, _| {
-        frame.obstacles.clear()
+        frame.obstacles.clear();
     }),
     on_frame(
         "half_of_the_obstacles",
@@ -97,7 +97,7 @@ pub(super) const FAULTS: &[Spec] = &[
         "flickering_obstacles",
         "Obstacles are seen in one tick of three.",
         |frame, past| {
-            if past.tick() % FLICKER != 0 {
+            if !past.tick().is_multiple_of(FLICKER) {
                 frame.obstacles.clear();
             }
         },
@@ -124,7 +124,7 @@ pub(super) const FAULTS: &[Spec] = &[
     on_frame(
         "frozen_obstacles",
         "Obstacles stay where they were when they were first seen.",
-        |frame, past| freeze(frame, past),
+        freeze,
     ),
     on_frame(
         "points_for_bodies",
@@ -169,7 +169,7 @@ pub(super) const FAULTS: &[Spec] = &[
         "Headings are computed with the arguments of the arctangent swapped.",
         |frame, _| {
             each(frame, |obstacle| {
-                obstacle.pose.theta = angle::wrap(FRAC_PI_2 - obstacle.pose.theta)
+                obstacle.pose.theta = angle::wrap(FRAC_PI_2 - obstacle.pose.theta);
             });
         },
     ),
@@ -178,7 +178,7 @@ pub(super) const FAULTS: &[Spec] = &[
         "Headings in degrees are taken for radians.",
         |frame, _| {
             each(frame, |obstacle| {
-                obstacle.pose.theta = angle::wrap(obstacle.pose.theta.to_degrees())
+                obstacle.pose.theta = angle::wrap(obstacle.pose.theta.to_degrees());
             });
         },
     ),

@@ -37,12 +37,11 @@ pub(super) const FAULTS: &[Spec] = &[
     on_frame(
         "command_heard_late",
         "A command is heard ten seconds after it is given.",
-        |frame, past| {
+        |frame, _| {
             if frame.time < DEAF {
                 frame.command = Command::Cruise;
                 frame.lines.truncate(1);
             }
-            let _ = past;
         },
     ),
     on_frame(
@@ -117,7 +116,7 @@ pub(super) const FAULTS: &[Spec] = &[
         "Every line on the road may be crossed.",
         |frame, past| {
             lines(frame, past, |sample| {
-                sample.marks = (BoundaryType::DottedWhite, BoundaryType::DottedWhite)
+                sample.marks = (BoundaryType::DottedWhite, BoundaryType::DottedWhite);
             });
         },
     ),

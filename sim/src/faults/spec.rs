@@ -132,7 +132,7 @@ impl Spec {
         hints::shows_in(self.name)
     }
 
-    /// Why no gate can see it, where that is known: it is planted to say so.
+    /// Why no gate has seen it yet, where that is known to be so.
     pub fn unseen(&self) -> Option<&'static str> {
         hints::unseen(self.name)
     }

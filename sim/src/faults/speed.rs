@@ -48,7 +48,7 @@ pub(super) const FAULTS: &[Spec] = &[
         }),
     ),
     configured("bends_ignored", "Bends limit no speed.", |config| {
-        config.speed.lateral_acceleration = 100.0
+        config.speed.lateral_acceleration = 100.0;
     }),
     handed_on(
         "stop_a_car_length_late",
@@ -180,7 +180,9 @@ pub(super) const FAULTS: &[Spec] = &[
         "acceleration_sign",
         "The acceleration that the tracker is given has the wrong sign.",
         |points, _| {
-            points.iter_mut().for_each(|point| point.a = -point.a);
+            for point in points.iter_mut() {
+                point.a = -point.a;
+            }
         },
     ),
     on_trajectory(
@@ -202,24 +204,32 @@ pub(super) const FAULTS: &[Spec] = &[
         "trajectory_in_half_seconds",
         "Points a tenth of a second apart are taken for half a second apart.",
         |points, _| {
-            points.iter_mut().for_each(|point| point.t *= 5.0);
+            for point in points.iter_mut() {
+                point.t *= 5.0;
+            }
         },
     ),
     on_trajectory(
         "never_stops",
         "Of what the tracker is given, no speed is below that of walking.",
         |points, _| {
-            points.iter_mut().for_each(|point| point.v = point.v.max(1.5));
+            for point in points.iter_mut() {
+                point.v = point.v.max(1.5);
+            }
         },
     ),
 ];
 
 fn scale(points: &mut [TrajectoryPoint], by: f64) {
-    points.iter_mut().for_each(|point| point.v *= by);
+    for point in points.iter_mut() {
+        point.v *= by;
+    }
 }
 
 fn shift(points: &mut [TrajectoryPoint], by: f64) {
-    points.iter_mut().for_each(|point| point.t += by);
+    for point in points.iter_mut() {
+        point.t += by;
+    }
 }
 
 fn keep_going(decision: &mut Decision, past: &mut Past) {

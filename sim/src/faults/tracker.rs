@@ -94,7 +94,7 @@ pub(super) const FAULTS: &[Spec] = &[
         |controls, _| controls.acceleration = controls.acceleration.max(-WEAK_BRAKES),
     ),
     on_controls("brakes_lost", "The car does not brake.", |controls, _| {
-        controls.acceleration = controls.acceleration.max(0.0)
+        controls.acceleration = controls.acceleration.max(0.0);
     }),
     on_controls(
         "drive_and_brakes_swapped",

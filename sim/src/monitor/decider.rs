@@ -194,8 +194,8 @@ fn path_fault(decision: &Decision) -> Option<(Breakdown, &'static str)> {
             "trajectory holds a number that is not finite",
         ));
     }
-    if decision.outcome.is_planned() && (path.len() < 2 || trajectory.len() < 2) {
-        return Some((Breakdown::Empty, "path or trajectory has fewer than two points"));
+    if decision.outcome.is_planned() && trajectory.len() < 2 {
+        return Some((Breakdown::Empty, "trajectory has fewer than two points"));
     }
     if trajectory.windows(2).any(|pair| pair[1].t <= pair[0].t) {
         return Some((Breakdown::Unordered, "trajectory steps back in time"));

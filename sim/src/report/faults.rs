@@ -40,7 +40,9 @@ pub fn findings_to_table(findings: &[Finding]) -> String {
         "obstacles",
         "seconds",
     ]);
-    findings.iter().for_each(|finding| grid.row(cells(finding)));
+    for finding in findings {
+        grid.row(cells(finding));
+    }
     let mut text = String::new();
     for line in grid.lines() {
         text.push_str(line.trim_end());
@@ -69,7 +71,7 @@ fn cells(finding: &Finding) -> [String; 12] {
         plant.name().to_owned(),
         result(finding).to_owned(),
         told(&|caught| caught.metric.clone()),
-        told(&|caught| ending(caught)),
+        told(&ending),
         told(&|caught| caught.scenario.clone()),
         told(&|caught| caught.seed.to_string()),
         finding.seeds.to_string(),

@@ -175,12 +175,12 @@ fn timed<T>(run: impl FnOnce() -> T) -> (T, Duration) {
 fn replay_command(given: &str, seed: u64, overrides: &[String]) -> String {
     let mut command = format!("corridor run {given} --seed {seed}");
     for setting in overrides {
-        command.push_str(" --set ");
-        if setting.contains(['"', '{', '[', ' ']) {
-            command.push_str(&format!("'{setting}'"));
+        let quote = if setting.contains(['"', '{', '[', ' ']) {
+            "'"
         } else {
-            command.push_str(setting);
-        }
+            ""
+        };
+        command.extend([" --set ", quote, setting.as_str(), quote]);
     }
     command
 }
