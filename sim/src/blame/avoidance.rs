@@ -144,10 +144,12 @@ impl<'a> Inquest<'a> {
     fn avoidable_by(&self, witness: &Witness) -> Avoidable {
         let surroundings = &self.recording.surroundings;
         debug_assert_eq!(witness.check(surroundings, &self.limits), Ok(()));
-        let driven = &self.recording.ego[self.event];
+        // One sample earlier: a collision has already changed how the ego moves.
+        let before = self.event.saturating_sub(1);
+        let driven = &self.recording.ego[before];
         Avoidable::Yes {
             until: Some(self.recording.time_of(witness.first)),
-            by: Some(witness.manoeuvre(surroundings, self.event, driven)),
+            by: Some(witness.manoeuvre(surroundings, before, driven)),
         }
     }
 

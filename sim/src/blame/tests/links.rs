@@ -43,13 +43,15 @@ fn a_mirrored_world_is_not_the_scenarios_fault_and_the_last_moment_is_that_of_br
         "{failure}"
     );
     let Avoidable::Yes {
-        until: Some(until), ..
+        until: Some(until),
+        by: Some(by),
     } = avoidable
     else {
         panic!("{avoidable}")
     };
     // At about 10 m/s braking takes 1.7 s, a step aside of half a metre less than one.
     assert!((0.3..1.8).contains(&(time - until)), "{time} {until}");
+    assert!(by.speed < 0.0 || by.left > 0.1, "{by}: the car is on the right");
     assert_eq!(whose, Link::Bound);
 }
 
