@@ -8,6 +8,9 @@ use corridor_decider::geometry::{ConvexPolygon, Pose, Vec2, angle};
 use corridor_decider::reference_line::{ReferenceLine, SlPoint};
 use std::sync::Arc;
 
+/// Hardest braking of any driver, m/s²: dry road.
+const HARDEST_BRAKING: f64 = 8.0;
+
 /// Where an obstacle goes, in the frame of the route's line.
 pub(super) struct Course<'a> {
     start: FrenetBox,
@@ -170,7 +173,8 @@ impl<'a> Course<'a> {
         let step = time - self.driven.1;
         if let Some(driver) = driver.filter(|_| step > 0.0) {
             let ratio = speed.abs() / driver.desired_speed;
-            let gain = driver.max_acceleration * (1.0 - ratio * ratio * ratio * ratio) * step;
+            let wished = driver.max_acceleration * (1.0 - ratio * ratio * ratio * ratio);
+            let gain = wished.max(-HARDEST_BRAKING) * step;
             let next = (speed.abs() + gain.max(-speed.abs())).copysign(*speed);
             self.driven = (self.driven.0 + f64::midpoint(*speed, next) * step, time);
             *speed = next;
