@@ -8,6 +8,9 @@ use corridor_decider::geometry::{ConvexPolygon, Pose, Vec2, angle};
 use corridor_decider::reference_line::{ReferenceLine, SlPoint};
 use std::sync::Arc;
 
+/// Hardest braking of any driver, m/s²: dry road.
+const HARDEST_BRAKING: f64 = 8.0;
+
 /// Where an obstacle goes, in the frame of the route's line.
 pub(super) struct Course<'a> {
     start: FrenetBox,
@@ -24,7 +27,7 @@ enum Motion<'a> {
     /// Along the line from this speed; then perhaps across, to an offset, in a time.
     Drives {
         speed: f64,
-        /// How its speed changes on a free road; never without.
+        /// Who brings it to another speed on a free road.
         driver: Option<&'a IdmParams>,
         across: Option<(&'a Trigger, f64, f64)>,
     },
@@ -71,7 +74,7 @@ impl<'a> Course<'a> {
                 ..
             } => Motion::Drives {
                 speed: along(start),
-                driver: Some(params),
+                driver: Some(params).filter(|params| (params.desired_speed - start.speed).abs() > 0.0),
                 across: lane_change.as_ref().map(|m| {
                     let sign = if along(start) < 0.0 { -1.0 } else { 1.0 };
                     (&m.trigger, sign * (m.to_l - start.l), m.duration)
@@ -168,13 +171,14 @@ impl<'a> Course<'a> {
             return;
         };
         let step = time - self.driven.1;
-        if let Some(driver) = driver.filter(|driver| step > 0.0 && driver.desired_speed != speed.abs()) {
+        if let Some(driver) = driver.filter(|_| step > 0.0) {
             let ratio = speed.abs() / driver.desired_speed;
-            let gain = driver.max_acceleration * (1.0 - ratio * ratio * ratio * ratio) * step;
+            let wished = driver.max_acceleration * (1.0 - ratio * ratio * ratio * ratio);
+            let gain = wished.max(-HARDEST_BRAKING) * step;
             let next = (speed.abs() + gain.max(-speed.abs())).copysign(*speed);
             self.driven = (self.driven.0 + f64::midpoint(*speed, next) * step, time);
             *speed = next;
-        } else {
+        } else if driver.is_none() {
             self.driven = (*speed * time, time);
         }
     }

@@ -326,7 +326,7 @@ fn who_cuts_in_and_brakes_leaves_room_for_that_too() {
 fn who_wants_to_drive_slower_is_nearer_when_it_comes_in() {
     let cut = |desired: f64| {
         format!(
-            "map='dual'\ncruise_speed=10\n[ego]\nlane='right_a'\ns=60\n[[idm]]\nlane='left'\nlength=4\nahead=22\n\
+            "map='dual'\ncruise_speed=10\n[ego]\nlane='right_a'\ns=60\n[[idm]]\nlane='left'\nlength=4\nahead=34\n\
              speed=10\ndesired_speed={desired}\nlane_change={{to=0,duration=2,when={{at=3}}}}\n"
         )
     };
