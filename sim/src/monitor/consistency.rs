@@ -22,7 +22,7 @@ pub(super) const MAX_YAW_ACCELERATION: f64 = 0.1;
 pub(super) const SHARE_LIMIT: f64 = 0.95;
 
 /// Fewest common moments that make two plans comparable: a jerk takes two, its mean two of them.
-const LEAST_MOMENTS: usize = 3;
+const LEAST_MOMENTS: u32 = 3;
 
 /// The four quantities with their bounds.
 const PARTS: [(&str, f64); 4] = [
@@ -85,7 +85,7 @@ fn differences(last: &Plan, plan: &Plan) -> Option<[f64; PARTS.len()]> {
     let end = |trajectory: &[TrajectoryPoint]| trajectory.last().map(|point| point.t);
     let end = end(&plan.trajectory)?.min(end(&last.trajectory)? - shift);
     let (mut old, mut new) = (Reader::new(&last.trajectory), Reader::new(&plan.trajectory));
-    let (mut count, mut squares) = (0, [0.0; PARTS.len()]);
+    let (mut count, mut squares) = (0_u32, [0.0; PARTS.len()]);
     let (mut before, mut t) = (None, 0.0);
     while t <= end {
         let (then, now) = (old.at(t + shift), new.at(t));
@@ -105,7 +105,7 @@ fn differences(last: &Plan, plan: &Plan) -> Option<[f64; PARTS.len()]> {
     let moments = f64::from(count);
     let number = [moments, moments - 1.0, moments, moments - 1.0];
     let means = std::array::from_fn(|k| (squares[k] / number[k]).sqrt());
-    (count as usize >= LEAST_MOMENTS).then_some(means)
+    (count >= LEAST_MOMENTS).then_some(means)
 }
 
 /// Reads a trajectory at ascending times.

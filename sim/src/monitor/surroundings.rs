@@ -39,7 +39,7 @@ impl Body {
             s = (s.0.min(at.s), s.1.max(at.s));
             l = (l.0.min(at.l), l.1.max(at.l));
         }
-        let (sin, cos) = angle::sin_cos(line.point((s.0 + s.1) / 2.0).theta);
+        let (sin, cos) = angle::sin_cos(line.point(f64::midpoint(s.0, s.1)).theta);
         Self {
             s,
             l,

@@ -114,8 +114,8 @@ proptest! {
             let t = f64::from(k) * dt;
             let a = if t < response { PROFILE.acceleration } else { -PROFILE.min_braking };
             let (v_next, w_next) = ((v + a * dt).max(0.0), (w - PROFILE.max_braking * dt).max(0.0));
-            x += (v + v_next) / 2.0 * dt;
-            ahead += (w + w_next) / 2.0 * dt;
+            x += f64::midpoint(v, v_next) * dt;
+            ahead += f64::midpoint(w, w_next) * dt;
             (v, w) = (v_next, w_next);
             least = f64::min(least, ahead - x);
         }

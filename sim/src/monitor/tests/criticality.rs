@@ -30,9 +30,9 @@ fn run(cars: usize) -> Run {
 }
 
 /// Everyone goes straight on at their velocity.
-fn straight_on(ego: EgoState, cars: Vec<Motion>, duration: f64) -> Run {
+fn straight_on(ego: EgoState, cars: &[Motion], duration: f64) -> Run {
     let mut run = run(cars.len());
-    go(&mut run, ego, &cars, duration);
+    go(&mut run, ego, cars, duration);
     run
 }
 
@@ -126,7 +126,7 @@ fn crossing(delay: f64) -> Run {
     let start = -HALF - CAR.0 - w * (leaves + delay);
     straight_on(
         ego(50.0, 0.0, 0.0, v),
-        vec![motion(80.0, start, FRAC_PI_2, w)],
+        &[motion(80.0, start, FRAC_PI_2, w)],
         leaves + delay + 2.0,
     )
 }
@@ -142,7 +142,7 @@ fn post_encroachment_is_the_time_between_leaving_and_taking() {
     }
     assert!(!crossing(1.5).metric("pet").pass && crossing(2.4).metric("pet").pass);
     assert_eq!(crossing(5.5).metric("pet").value, None, "nobody remembers");
-    let following = straight_on(ego(50.0, 0.0, 0.0, 8.0), vec![motion(65.0, 0.0, 0.0, 8.0)], 5.0);
+    let following = straight_on(ego(50.0, 0.0, 0.0, 8.0), &[motion(65.0, 0.0, 0.0, 8.0)], 5.0);
     assert_eq!(
         following.metric("pet").value,
         None,
@@ -157,7 +157,7 @@ fn post_encroachment_knows_no_first() {
     let enters = (80.0 - CAR.1 - FRONT - 50.0) / v;
     let start = HALF + CAR.0 - w * (enters - delay);
     let car = motion(80.0, start, FRAC_PI_2, w);
-    let pet = straight_on(ego(50.0, 0.0, 0.0, v), vec![car], 8.0).value("pet");
+    let pet = straight_on(ego(50.0, 0.0, 0.0, v), &[car], 8.0).value("pet");
     assert!((-1e-9..0.2 + 1e-9).contains(&(pet - delay)), "{pet}");
 }
 
@@ -208,13 +208,13 @@ fn a_response_is_due_after_the_response_time() {
 /// Who comes from behind or from the side has to see to it himself.
 #[test]
 fn the_ego_does_not_brake_for_who_is_behind() {
-    let run = straight_on(ego(50.0, 0.0, 0.0, 8.0), vec![motion(35.0, 0.0, 0.0, 8.0)], 4.0);
+    let run = straight_on(ego(50.0, 0.0, 0.0, 8.0), &[motion(35.0, 0.0, 0.0, 8.0)], 4.0);
     assert!(run.value("rss_dangerous") > 3.0 && run.value("rss_violation").abs() < 1e-9);
 }
 
 #[test]
 fn a_contact_takes_half_the_velocity_and_its_energy() {
-    let run = straight_on(ego(50.0, 0.0, 0.0, 8.0), vec![motion(75.0, 0.5, 0.2, 0.0)], 5.0);
+    let run = straight_on(ego(50.0, 0.0, 0.0, 8.0), &[motion(75.0, 0.5, 0.2, 0.0)], 5.0);
     assert!((run.value("delta_v") - 4.0).abs() < 1e-9);
     assert!(
         (run.value("impact_energy") - 32.0).abs() < 1e-9,
@@ -222,7 +222,7 @@ fn a_contact_takes_half_the_velocity_and_its_energy() {
     );
     let hit = run.metric("delta_v");
     assert!(hit.worst_obstacle.as_deref() == Some("car_0") && hit.worst_t.is_some() && !hit.gate);
-    let free = straight_on(ego(50.0, 0.0, 0.0, 8.0), vec![motion(75.0, 9.0, 0.0, 0.0)], 1.0);
+    let free = straight_on(ego(50.0, 0.0, 0.0, 8.0), &[motion(75.0, 9.0, 0.0, 0.0)], 1.0);
     assert_eq!(
         (free.metric("delta_v").value, free.metric("pet").value),
         (None, None)
@@ -337,7 +337,7 @@ proptest! {
         let middle = (FRONT - REAR) / 2.0;
         let car = motion(50.0 + middle + x, y, 0.0, w);
         run.drive(0.1, |_| ego(50.0, 0.0, 0.0, v), |_| vec![car]);
-        let size = ((FRONT + REAR) / 2.0 + CAR.0, HALF + CAR.1);
+        let size = (f64::midpoint(FRONT, REAR) + CAR.0, HALF + CAR.1);
         let expected = closed_form((x, y), size, (w - v, 0.0)).filter(|t| *t < 3.0);
         match (run.metric("ttc").value, expected) {
             (Some(found), Some(expected)) => {
@@ -357,8 +357,9 @@ proptest! {
         y in -1.5..1.5f64, theta in -0.2..0.2f64, v in 0.0..9.0f64, a in -5.0..2.0f64,
     ) {
         let state = |side: f64| EgoState { a, ..ego(50.0, side * y, side * theta, v) };
-        let here = straight_on(state(1.0), cars.clone(), 4.0);
-        let there = straight_on(state(-1.0), cars.into_iter().map(mirrored).collect(), 4.0);
+        let here = straight_on(state(1.0), &cars, 4.0);
+        let turned: Vec<Motion> = cars.into_iter().map(mirrored).collect();
+        let there = straight_on(state(-1.0), &turned, 4.0);
         for name in MIRRORED {
             let (one, other) = (here.metric(name), there.metric(name));
             prop_assert!(same(name, &one, &other), "{one:?} {other:?}");
@@ -372,11 +373,11 @@ proptest! {
         cars in proptest::collection::vec(any_car(), 2..5), v in 0.0..9.0f64, shift in 1usize..4,
     ) {
         let state = ego(50.0, 0.3, 0.02, v);
-        let here = straight_on(state, cars.clone(), 4.0);
+        let here = straight_on(state, &cars, 4.0);
         let count = cars.len();
         let mut turned = cars;
         turned.rotate_left(shift % count);
-        let there = straight_on(state, turned, 4.0);
+        let there = straight_on(state, &turned, 4.0);
         let (here, there) = (here.verdict().metrics, there.verdict().metrics);
         prop_assert_eq!(here.len(), there.len());
         for (one, other) in here.iter().zip(&there) {
