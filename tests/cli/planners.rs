@@ -9,7 +9,7 @@ fn late() -> String {
 }
 
 #[test]
-fn either_planner_drives() {
+fn every_planner_drives() {
     let folder = Folder::new("planner");
     folder.put("good.toml", GOOD);
     let digest = |arguments: &[&str]| {
@@ -27,6 +27,11 @@ fn either_planner_drives() {
             lattice
         );
         assert_ne!(usual, lattice, "{verb}");
+    }
+    for baseline in ["blind", "idm", "pdm_closed"] {
+        let chosen = digest(&["run", "good.toml", "--planner", baseline]);
+        let setting = format!("decider.planner={baseline}");
+        assert_eq!(digest(&["run", "good.toml", "--set", &setting]), chosen);
     }
     for verb in ["run", "sweep"] {
         folder.refuses(
@@ -78,7 +83,10 @@ fn a_comparison_wants_two_planners() {
         ("lattice", &["two planners are wanted", "`lane_follow,lattice`"]),
         ("lane_follow,lattice,lattice", &["two planners are wanted"]),
         ("lattice,lattice", &["`lattice` is named twice"]),
-        ("lane_follow,bezier", &["`bezier`: no such planner", "`lattice`"]),
+        (
+            "lane_follow,bezier",
+            &["`bezier`: no such planner", "`lattice`", "`pdm_closed`"],
+        ),
         ("Lattice,lane_follow", &["`Lattice`: no such planner"]),
         ("lane_follow,", &["``: no such planner"]),
         ("", &["--compare"]),

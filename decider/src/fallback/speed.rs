@@ -164,6 +164,19 @@ mod tests {
         }
     }
 
+    /// Held against the shortest stop with the same brakes and the same jerk, in closed form.
+    #[test]
+    fn who_has_to_stop_at_once_does_not_weigh_comfort() {
+        let vehicle = VehicleParams::default();
+        for v in [1.0, 2.0, 4.0, 8.0, 15.0] {
+            let (_, profile) = stopping(&start(v, 0.0), &vehicle, None, &|_| false);
+            let shortest = braking_profile(v, 0.0, BrakingLimits::NORMAL);
+            let way = |profile: &SpeedData| profile.points[profile.points.len() - 1].s;
+            let longer = way(&profile) / way(&shortest);
+            assert!(longer < 1.1, "{longer} times as long from {v} m/s");
+        }
+    }
+
     proptest! {
         /// Every profile moves forward to a standstill; with room enough the first rung does; before a target where that
         /// can be, and where it cannot, within what the brakes need.

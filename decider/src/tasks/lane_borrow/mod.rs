@@ -189,3 +189,29 @@ fn crossable_sides(scene: &Scene) -> Vec<Borrow> {
         .map(|(_, side)| side)
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tasks::testing::Stage;
+
+    /// The sides that are borrowed at last to pass a car from 48 to 52 m.
+    fn borrowed(junction_from: f64) -> Vec<Borrow> {
+        let mut stage = Stage::new(200.0, junction_from);
+        let mut state = BorrowState {
+            blocked_cycles: stage
+                .config
+                .lane_borrow
+                .long_term_blocking_obstacle_cycle_threshold,
+            blocker: Some(stage.park(50.0)),
+            ..BorrowState::default()
+        };
+        decide(&stage.scene(), &mut state)
+    }
+
+    #[test]
+    fn no_lane_is_borrowed_close_before_a_junction() {
+        assert_eq!(borrowed(f64::MAX), [Borrow::Left]);
+        assert_eq!(borrowed(66.0), []);
+    }
+}
