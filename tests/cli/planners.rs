@@ -109,7 +109,7 @@ fn a_comparison_wants_two_planners() {
     );
     folder.refuses(
         &compare(&["--junit", "x.xml"]),
-        &["`--junit`", "`--out DIR` writes a JUnit report per planner"],
+        &["`--junit`", "`--out DIR` writes results and reports per planner"],
     );
     folder.refuses(&compare(&["--count", "0"]), &["--count"]);
     folder.refuses(&compare(&["--json", "no/such/x"]), &["`no/such/x`"]);

@@ -29,7 +29,7 @@ fn a_wrong_setting_says_what_can_be_set() {
             "decider.path_bounds.quirks.greedy_sides=1",
             &["greedy_sides=1`", "expected a boolean"],
         ),
-        ("fault=gremlin", &["unknown variant `gremlin`", "`mirrored`"]),
+        ("fault=gremlin", &["no fault is called `gremlin`", " mirrored,"]),
         ("tick=0.015", &["`tick=0.015`", "whole physics steps"]),
     ];
     for (setting, parts) in cases {

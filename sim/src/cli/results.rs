@@ -74,16 +74,16 @@ impl Compare {
     pub(crate) fn execute(&self) -> anyhow::Result<Gate> {
         self.json.as_deref().map_or(Ok(()), output::check)?;
         let (first, second) = (Results::open(&self.first)?, Results::open(&self.second)?);
-        if first.header().content != second.header().content {
-            output::note(
-                "the two sweeps read different scenarios or maps: of the same name and seed they may not be the same scene",
-            );
-        }
         let (pairs, alone) = pairs(&first, &second)?;
         anyhow::ensure!(
             !pairs.is_empty(),
             "the two sweeps have no scenario and seed in common"
         );
+        if first.header().content != second.header().content {
+            output::note(
+                "the two sweeps read different scenarios or maps: of the same name and seed they may not be the same scene",
+            );
+        }
         if alone > 0 {
             output::note(&format!(
                 "{alone} runs are left out: the other sweep has no such scenario and seed"

@@ -12,11 +12,12 @@ const FORMAT: u32 = 1;
 /// What stands where there is nothing to say.
 const NOTHING: &str = "-";
 
-/// How the hunt for a fault ended, in a word or two.
+/// How the hunt for a fault ended, in a word or two. Caught is it by a gate; noticed by a metric that is none.
 fn result(finding: &Finding) -> &'static str {
     match &finding.result {
         Hunted::Caught(_) => "caught",
         Hunted::Broken(..) => "broke the testbed",
+        Hunted::Escaped if finding.noticed.is_some() => "noticed",
         Hunted::Escaped if finding.fault.unseen().is_some() => "known unseen",
         Hunted::Escaped if finding.seeds == 0 => "no seed suits",
         Hunted::Escaped if finding.changed == 0 => "without effect",
@@ -31,7 +32,7 @@ pub fn findings_to_table(findings: &[Finding]) -> String {
         "stage",
         "planted on",
         "result",
-        "gate",
+        "metric",
         "ending",
         "scenario",
         "seed",
@@ -49,7 +50,7 @@ pub fn findings_to_table(findings: &[Finding]) -> String {
         text.push('\n');
     }
     text.push('\n');
-    for finding in findings.iter().filter(|finding| caught(finding).is_none()) {
+    for finding in findings.iter().filter(|finding| result(finding) != "caught") {
         text.push_str(&remark(finding));
         text.push('\n');
     }
@@ -84,7 +85,7 @@ fn cells(finding: &Finding) -> [String; 12] {
 fn caught(finding: &Finding) -> Option<&Caught> {
     match &finding.result {
         Hunted::Caught(caught) => Some(caught),
-        Hunted::Broken(..) | Hunted::Escaped => None,
+        Hunted::Broken(..) | Hunted::Escaped => finding.noticed.as_deref(),
     }
 }
 
@@ -111,6 +112,7 @@ fn sum(findings: &[Finding]) -> String {
     let count = |what: &str| findings.iter().filter(|finding| result(finding) == what).count();
     let kinds = [
         "caught",
+        "noticed",
         "slipped through",
         "without effect",
         "no seed suits",

@@ -28,6 +28,9 @@ pub struct Finding {
     pub changed: usize,
     /// How it ended.
     pub result: Hunted,
+    /// The first run, if no gate failed in any, in which a metric that is no gate went beyond its threshold and did not
+    /// without the fault: a comparison of two sweeps would tell.
+    pub noticed: Option<Box<Caught>>,
     /// How small the run that showed it can be made, once somebody has tried.
     pub shrunk: Option<Shrunk>,
 }
@@ -121,8 +124,8 @@ pub fn hunt(
     Ok(findings)
 }
 
-/// A run without a fault, as far as it matters: its digest if it passed.
-type Sound = Option<String>;
+/// A run without a fault, as far as it matters, if it passed: its digest, and the metrics beyond their thresholds.
+type Sound = Option<(String, Vec<String>)>;
 
 /// Runs without a fault and without an occasion: all faults are held against the same ones.
 type Known = Mutex<BTreeMap<Job, Sound>>;
@@ -135,11 +138,12 @@ impl Hunt<'_> {
             unfit: 0,
             changed: 0,
             result: Hunted::Escaped,
+            noticed: None,
             shrunk: None,
         };
         let trial = Trial::of(self, fault);
         for job in self.plan.in_turn(&fault.shows_in(), self.seed, self.budget) {
-            let Some(digest) = trial.sound(self, job, known) else {
+            let Some((digest, usual)) = trial.sound(self, job, known) else {
                 finding.unfit += 1;
                 continue;
             };
@@ -154,8 +158,13 @@ impl Hunt<'_> {
                     finding.changed += usize::from(verdict.digest != digest);
                     if let Some(metric) = first_failed(verdict) {
                         finding.result = Hunted::Caught(Box::new(caught(&row, verdict, metric)));
+                        finding.noticed = None;
                         finding.shrunk = self.shrunk(job, &trial);
                         break;
+                    }
+                    let is_new = |metric: &&Metric| !usual.contains(&metric.name);
+                    if let (None, Some(metric)) = (&finding.noticed, verdict.failed.iter().find(is_new)) {
+                        finding.noticed = Some(Box::new(caught(&row, verdict, metric)));
                     }
                 }
             }
@@ -228,9 +237,10 @@ impl Trial {
     fn sound(&self, hunt: &Hunt, job: Job, known: &Known) -> Sound {
         let run = || {
             let row = row(hunt.plan, job, &self.sound);
-            row.verdict()
-                .filter(|verdict| verdict.pass)
-                .map(|verdict| verdict.digest.clone())
+            row.verdict().filter(|verdict| verdict.pass).map(|verdict| {
+                let beyond = verdict.failed.iter().map(|metric| metric.name.clone());
+                (verdict.digest.clone(), beyond.collect())
+            })
         };
         if self.has_occasion {
             return run();

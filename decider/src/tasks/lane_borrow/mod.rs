@@ -5,7 +5,7 @@
 
 mod conditions;
 
-use super::path_bounds::Borrow;
+use super::path_bounds::{Borrow, ObstacleSl};
 use super::scene::Scene;
 use crate::context::Context;
 use crate::frame::ObstacleId;
@@ -75,6 +75,10 @@ pub struct BorrowState {
 /// How far ahead the lane line is read, m.
 const LOOK_AHEAD: f64 = 100.0;
 
+/// How far beyond what is passed it is read, m: the way back into the own lane at the speeds of a borrow. The original reads
+/// on to the end of its look, and stands for good behind a car in a street whose line becomes solid long after it.
+const WAY_BACK: f64 = 25.0;
+
 /// How often it is read, m.
 const STEP: f64 = 2.0;
 
@@ -107,7 +111,8 @@ fn decide(scene: &Scene, state: &mut BorrowState) -> Vec<Borrow> {
         && scene.start.v < max_speed
         && conditions::may_be_passed(scene, state);
     if state.sides.is_empty() && may_begin {
-        state.sides = crossable_sides(scene);
+        let blocker = state.blocker.and_then(|id| scene.obstacle(id));
+        state.sides = crossable_sides(scene, blocker);
         state.usable_cycles = 0;
     }
     state.sides.clone()
@@ -121,7 +126,7 @@ pub fn is_permitted(scene: &Scene) -> bool {
         .neighbours
         .iter()
         .any(Option::is_some);
-    scene.config.lane_borrow.allow_lane_borrowing && has_neighbour && !crossable_sides(scene).is_empty()
+    scene.config.lane_borrow.allow_lane_borrowing && has_neighbour && !crossable_sides(scene, None).is_empty()
 }
 
 /// What the own lane alone would have been good for.
@@ -163,15 +168,19 @@ pub fn observe_traffic(state: &mut BorrowState, is_free: Option<bool>) {
     };
 }
 
-/// Sides whose line may be crossed all the way ahead, the left first. Double yellow forbids either side.
-fn crossable_sides(scene: &Scene) -> Vec<Borrow> {
+/// Sides whose line may be crossed all the way past the blocker and back, the left first. Of a blocker without a name: all
+/// the way ahead. Double yellow forbids either side.
+fn crossable_sides(scene: &Scene, blocker: Option<&ObstacleSl>) -> Vec<Borrow> {
     let solid = |kind: BoundaryType| {
         matches!(
             kind,
             BoundaryType::SolidYellow | BoundaryType::SolidWhite | BoundaryType::DoubleYellow
         )
     };
-    let end = (scene.ego_end_s() + LOOK_AHEAD).min(scene.line.length());
+    let passed = blocker.map_or(f64::INFINITY, |blocker| blocker.end_s + WAY_BACK);
+    let end = (scene.ego_end_s() + LOOK_AHEAD)
+        .min(passed)
+        .min(scene.line.length());
     let (mut left, mut right) = (true, true);
     let mut s = scene.ego_end_s();
     while s < end {
@@ -193,7 +202,9 @@ fn crossable_sides(scene: &Scene) -> Vec<Borrow> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::reference_line::ReferenceLine;
     use crate::tasks::testing::Stage;
+    use std::sync::Arc;
 
     /// The sides that are borrowed at last to pass a car from 48 to 52 m.
     fn borrowed(junction_from: f64) -> Vec<Borrow> {
@@ -213,5 +224,30 @@ mod tests {
     fn no_lane_is_borrowed_close_before_a_junction() {
         assert_eq!(borrowed(f64::MAX), [Borrow::Left]);
         assert_eq!(borrowed(66.0), []);
+    }
+
+    /// The sides that are borrowed at last to pass a car from 48 to 52 m where no line may be crossed from a station on.
+    fn borrowed_before_solid(from: f64) -> Vec<Borrow> {
+        let mut stage = Stage::new(200.0, f64::MAX);
+        let mut samples = stage.frame.lines[0].line.samples().to_vec();
+        for sample in samples.iter_mut().filter(|sample| sample.s >= from) {
+            sample.marks = (BoundaryType::SolidWhite, BoundaryType::SolidWhite);
+        }
+        stage.frame.lines[0].line = Arc::new(ReferenceLine::from(samples));
+        let mut state = BorrowState {
+            blocked_cycles: stage
+                .config
+                .lane_borrow
+                .long_term_blocking_obstacle_cycle_threshold,
+            blocker: Some(stage.park(50.0)),
+            ..BorrowState::default()
+        };
+        decide(&stage.scene(), &mut state)
+    }
+
+    #[test]
+    fn a_line_is_read_as_far_as_it_has_to_be_crossed() {
+        assert_eq!(borrowed_before_solid(52.0 + WAY_BACK), [Borrow::Left]);
+        assert_eq!(borrowed_before_solid(50.0 + WAY_BACK), []);
     }
 }
