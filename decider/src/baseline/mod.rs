@@ -18,7 +18,8 @@ mod tests;
 mod traffic;
 
 pub use idm::{IdmLaw, Leader};
-pub use pdm_closed::{EMERGENCY, OFFSETS, SPEEDS, best_proposal};
+use pdm_closed::best_proposal;
+pub use pdm_closed::{EMERGENCY, OFFSETS, SPEEDS};
 pub use rollout::{Proposal, Rollout, STEP, STEPS, State};
 pub use score::{Assessment, SCORED_STEPS, assess};
 pub use traffic::Traffic;

@@ -15,7 +15,7 @@ pub const OFFSETS: [f64; 3] = [0.0, -1.0, 1.0];
 pub const EMERGENCY: f64 = 2.0;
 
 /// The best drive; full braking along it where even that touches something soon.
-pub fn best_proposal(scene: &Scene, traffic: &Traffic) -> Driven {
+pub(super) fn best_proposal(scene: &Scene, traffic: &Traffic) -> Driven {
     let proposals = OFFSETS
         .into_iter()
         .flat_map(|offset| SPEEDS.map(|share| Proposal { offset, share }));

@@ -99,6 +99,10 @@ pub fn violation(points: impl Iterator<Item = [f64; 4]>) -> Option<Violation> {
 
 /// Whether [`violation`] finds nothing in a trajectory of speed, acceleration and curvature at all times of the grid. Most
 /// trajectories are fine, and this looks at several times at once.
+#[expect(
+    clippy::needless_bitwise_bool,
+    reason = "a branch per limit would be one time after the other"
+)]
 pub(super) fn keeps_limits(v: &Series, a: &Series, kappa: &Series) -> bool {
     let inside = |value: f64, (low, high): (f64, f64)| (value >= low) & (value <= high);
     let mut keeps = true;
