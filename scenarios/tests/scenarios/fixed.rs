@@ -2,26 +2,61 @@
 
 use crate::catalog::families;
 use crate::road::{family, maps};
-use corridor_scenarios::{Family, Scenario};
+use corridor_decider::reference_line::{LineQuery, ReferenceLine};
+use corridor_scenarios::scenario::{AlongLine, Behaviour, Obstacle};
+use corridor_scenarios::{Family, MapCache, Scenario};
 use std::path::Path;
 
-/// Everything of a scenario but the seed that drew it.
+/// Everything of a scenario but the seed that drew it; of a line, which is long, its ends and its number of samples.
 fn text(scenario: &Scenario) -> String {
+    let line = |line: &ReferenceLine| (line.samples().len(), line.point(0.0), line.point(line.length()));
+    let start = |at: &AlongLine| format!("{:?} {:?} {:?} {:?}", line(&at.line), at.s, at.l, at.speed);
+    let obstacle = |obstacle: &Obstacle| {
+        let behaviour = match &obstacle.behaviour {
+            Behaviour::ConstantSpeed(along) => start(along),
+            Behaviour::Idm {
+                start: along,
+                params,
+                lane_change,
+                mobil,
+            } => format!("{} {params:?} {lane_change:?} {mobil:?}", start(along)),
+            other => format!("{other:?}"),
+        };
+        let Obstacle {
+            id,
+            name,
+            kind,
+            shape,
+            ..
+        } = obstacle;
+        format!("{id:?} {name} {kind:?} {shape:?} {behaviour}")
+    };
+    let obstacles: Vec<String> = scenario.obstacles.iter().map(obstacle).collect();
+    let target = scenario.target_line.as_deref().map(line);
     format!(
-        "{:?}",
-        Scenario {
-            seed: 0,
-            ..scenario.clone()
-        }
+        "{} {} {:?} {:?} {:?} {target:?} {:?} {:?} {:?} {:?} {:?} {:?} {:?} {obstacles:?}",
+        scenario.name,
+        scenario.description,
+        scenario.route,
+        scenario.provider.is_some(),
+        line(&scenario.line),
+        scenario.ego,
+        scenario.command,
+        scenario.command_time,
+        scenario.cruise_speed,
+        scenario.vehicle,
+        scenario.timeout,
+        scenario.expect,
     )
 }
 
 #[test]
 fn every_family_of_the_catalog_can_be_written_down() {
+    let maps = MapCache::new();
     for (name, family) in families() {
         for seed in [1, 2, 7] {
             let fixed = family.fixed(seed).unwrap();
-            let again = Family::parse(&fixed, "other.toml", Path::new(""))
+            let again = Family::parse_with(&fixed, "other.toml", Path::new(""), &maps)
                 .unwrap_or_else(|e| panic!("{name}: {e}\n{fixed}"));
             assert!(again.is_fixed(), "{name} seed {seed}: {fixed}");
             let (a, b) = (family.draw(seed).unwrap(), again.draw(seed + 30).unwrap());
