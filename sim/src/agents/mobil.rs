@@ -171,8 +171,8 @@ mod tests {
         }
     }
 
-    fn at(gap: f64, speed: f64) -> Option<Leader> {
-        Some(Leader { gap, speed })
+    fn at(gap: f64, speed: f64) -> Leader {
+        Leader { gap, speed }
     }
 
     fn mobil(politeness: f64) -> Mobil {
@@ -186,7 +186,7 @@ mod tests {
     fn a_free_lane_beside_a_slow_leader_gains_what_the_leader_costs() {
         // By hand, at 10 m/s behind 5 m/s at 20 m: s* = 2 + 15 + 10·5/(2√2.8) = 31.940; 1.4·(31.940/20)² = 3.5706.
         let here = Neighbours {
-            ahead: at(20.0, 5.0),
+            ahead: Some(at(20.0, 5.0)),
             behind: None,
         };
         let gain = driver(10.0)
@@ -201,7 +201,7 @@ mod tests {
     fn the_polite_count_what_the_new_follower_loses_and_the_old_one_gains() {
         let there = Neighbours {
             ahead: None,
-            behind: at(15.0, 10.0),
+            behind: Some(at(15.0, 10.0)),
         };
         // The new follower, at 10 m/s, has 10 m/s before it at 15 m: s* = 17; it loses 1.4·(17/15)² = 1.7982.
         let selfless = |p| {
@@ -218,7 +218,7 @@ mod tests {
         assert!((gain - 0.5 * 1.7982).abs() < 1e-3, "{gain}");
         // With a leader 20 m ahead the follower there had 15 + 4.6 + 20 m before, to 10 m/s: it loses less.
         let full = Neighbours {
-            ahead: at(20.0, 10.0),
+            ahead: Some(at(20.0, 10.0)),
             ..there
         };
         let loss = 1.4 * (17.0_f64 / 15.0) * (17.0 / 15.0) - 1.4 * (17.0_f64 / 39.6) * (17.0 / 39.6);
@@ -233,7 +233,7 @@ mod tests {
     fn nobody_is_cut_off() {
         let fast_behind = |gap| Neighbours {
             ahead: None,
-            behind: at(gap, 18.0),
+            behind: Some(at(gap, 18.0)),
         };
         let gain = |there: Neighbours| driver(10.0).gain(&mobil(0.0), &Neighbours::default(), &there);
         // s* = 2 + 27 + 18·8/(2√2.8) = 72.03: 1.4·(1 − 0.6561 − (72.03/40)²) = −4.06 at 40 m, −3.18 at 45 m.
@@ -241,7 +241,7 @@ mod tests {
         assert!(gain(fast_behind(45.0)).is_some());
         assert_eq!(gain(fast_behind(-0.5)), None, "beside");
         let beside = Neighbours {
-            ahead: at(-1.0, 10.0),
+            ahead: Some(at(-1.0, 10.0)),
             behind: None,
         };
         assert_eq!(gain(beside), None);

@@ -12,7 +12,7 @@ use corridor_sim::sweep::results::Results;
 use corridor_sim::sweep::{Plan, Variant};
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::io::BufWriter;
+use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
 /// Kinds of failures of which `--out` keeps a trace. One shows a cause; hundreds fill a disk.
@@ -225,7 +225,7 @@ fn write_junit(path: &Path, place: &Path, report: &SweepReport) -> anyhow::Resul
             .end()?
             .into_inner()
             .map(drop)
-            .map_err(|error| error.into_error())?)
+            .map_err(io::IntoInnerError::into_error)?)
     })
 }
 
@@ -253,6 +253,6 @@ fn write_csv(path: &Path, place: &Path) -> anyhow::Result<()> {
             .end()
             .into_inner()
             .map(drop)
-            .map_err(|error| error.into_error())?)
+            .map_err(io::IntoInnerError::into_error)?)
     })
 }

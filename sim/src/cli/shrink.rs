@@ -56,7 +56,7 @@ impl Shrink {
             keeps_map: failed.keeps_map,
         };
         let shrunk = shrink(&failed.family, failed.seed, &demand, self.budget, &failed.maps)?;
-        let text = format!("{}\n{}", self.head(&failed, &shrunk), shrunk.text);
+        let text = format!("{}\n{}", Self::head(&failed, &shrunk), shrunk.text);
         match &self.output {
             Some(path) => output::write(path, &text)?,
             None => output::print(&text),
@@ -68,7 +68,7 @@ impl Shrink {
     fn failed(&self) -> anyhow::Result<Failed> {
         let path = Path::new(&self.scenario);
         let given = self.planner.with(&self.settings);
-        if !self.scenario.ends_with(".zst") {
+        if path.extension().is_none_or(|extension| extension != "zst") {
             let maps = MapCache::new();
             return Ok(Failed {
                 family: source::family(&self.scenario, &maps)?,
@@ -106,12 +106,13 @@ impl Shrink {
     }
 
     /// Where the small scenario comes from, as comments.
-    fn head(&self, failed: &Failed, shrunk: &Shrunk) -> String {
-        let settings: String = failed
+    fn head(failed: &Failed, shrunk: &Shrunk) -> String {
+        let settings: Vec<String> = failed
             .overrides
             .iter()
             .map(|setting| format!(" --set {setting}"))
             .collect();
+        let settings = settings.concat();
         format!(
             "# Shrunk from seed {} of {}.\n# Fails by: {}\n# Run with: corridor run FILE{settings}",
             failed.seed,

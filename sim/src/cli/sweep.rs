@@ -87,7 +87,7 @@ impl Sweep {
         let header = || Header::new(&plan, &self.scenarios, &variant, until);
         let mut results = match &place {
             Some(place) if self.resume => Some(ResultsWriter::resume(place.path(), &header(), |row| {
-                report.add(row)
+                report.add(row);
             })?),
             Some(place) => Some(ResultsWriter::create(place.path(), &header())?),
             None => None,

@@ -191,7 +191,7 @@ fn every_decorator_changes_what_it_is_planted_on() {
             Plant::Trajectory(_) => {
                 let mut planted = Planted::new(spec.into());
                 let (first, mut second) = (trajectory(), trajectory());
-                for point in second.iter_mut() {
+                for point in &mut second {
                     point.v = 0.5;
                 }
                 let followed = [first.clone(), second.clone()].map(|points| planted.followed(&points));

@@ -63,7 +63,8 @@ mod tests {
         assert!((shares.median().unwrap() - 0.25).abs() <= 0.0005 + 1e-12);
         assert!((shares.mean().unwrap() - 0.335).abs() < 1e-3);
         let mut ends = Shares::default();
-        [-3.0, 7.0].iter().for_each(|v| ends.add(*v));
+        ends.add(-3.0);
+        ends.add(7.0);
         assert_eq!(ends.median(), Some(0.0));
     }
 }

@@ -81,12 +81,13 @@ impl CrossEntropy {
             return;
         }
         let count = order.len() as f64;
-        for k in 0..self.centre.len() {
+        let directions = self.centre.iter_mut().zip(&mut self.spread);
+        for (k, (centre, spread)) in directions.enumerate() {
             let mean = order.iter().map(|place| places[*place][k]).sum::<f64>() / count;
             let square = |place: &usize| (places[*place][k] - mean) * (places[*place][k] - mean);
             let deviation = (order.iter().map(square).sum::<f64>() / count).sqrt();
-            self.centre[k] = MEMORY * self.centre[k] + (1.0 - MEMORY) * mean;
-            self.spread[k] = (MEMORY * self.spread[k] + (1.0 - MEMORY) * deviation).max(NARROW);
+            *centre = MEMORY * *centre + (1.0 - MEMORY) * mean;
+            *spread = (MEMORY * *spread + (1.0 - MEMORY) * deviation).max(NARROW);
         }
     }
 }
@@ -133,12 +134,12 @@ mod tests {
     fn places_stay_in_the_cube_and_repeat() {
         let mut chooser = CrossEntropy::new(2, 1);
         let edge = vec![vec![0.0, 1.0]; GENERATION];
-        chooser.learn(&edge, &vec![0.0; GENERATION]);
+        chooser.learn(&edge, &[0.0; GENERATION]);
         let _ = chooser.generation();
         let places = chooser.generation();
         assert!(places.iter().flatten().all(|x| (0.0..=1.0).contains(x)));
         let mut same = CrossEntropy::new(2, 1);
-        same.learn(&edge, &vec![0.0; GENERATION]);
+        same.learn(&edge, &[0.0; GENERATION]);
         let _ = same.generation();
         assert_eq!(same.generation(), places);
         let nothing = vec![f64::INFINITY; GENERATION];

@@ -76,6 +76,7 @@ impl Search<'_> {
     ///
     /// # Errors
     /// [`SweepError`] when the threads cannot be started.
+    #[expect(clippy::missing_panics_doc, reason = "a place of a list has its number in it")]
     pub fn look(&self, threads: usize) -> Result<Found, SweepError> {
         let keys = self.keys();
         let mut chooser = CrossEntropy::new(keys.len(), self.seed);

@@ -96,7 +96,7 @@ pub fn shrink(
         return Err(ShrinkError::Differs(original.summary));
     };
     let before = start.size();
-    let smallest = search.to_the_end(start);
+    let smallest = search.smallest_from(start);
     Ok(Shrunk {
         text: smallest.document.text(),
         sizes: [before, smallest.size()],
@@ -134,7 +134,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// Takes step after step until none helps.
-    fn to_the_end(&mut self, mut best: Failing) -> Failing {
+    fn smallest_from(&mut self, mut best: Failing) -> Failing {
         loop {
             let mut has_gained = false;
             for step in Step::ALL {

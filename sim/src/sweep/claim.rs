@@ -87,7 +87,7 @@ mod tests {
 
     fn clean_runs(rate: f64) -> u64 {
         let claim = Claim::new(rate).unwrap();
-        (1..)
+        (1..1_000_000)
             .find(|runs| claim.standing(0, *runs) == Standing::Made)
             .unwrap()
     }

@@ -104,6 +104,7 @@ pub struct Hunt<'a> {
 ///
 /// # Errors
 /// [`SweepError`] when the threads cannot be started.
+#[expect(clippy::missing_panics_doc, reason = "a fault of a list has its number in it")]
 pub fn hunt(
     hunt: &Hunt,
     faults: &[&'static Spec],

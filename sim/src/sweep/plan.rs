@@ -98,6 +98,10 @@ impl Plan {
     }
 
     /// The `nth` run of this part.
+    #[expect(
+        clippy::missing_panics_doc,
+        reason = "a remainder of the number of families is a place in them"
+    )]
     pub fn job(&self, nth: u64) -> Job {
         let index = self.shard.index + nth * self.shard.of;
         let fixed = self.fixed.len() as u64;
